@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace sks {
+
+/// Colour of one point, sRGB.
+struct Rgb {
+  std::uint8_t r = 0;
+  std::uint8_t g = 0;
+  std::uint8_t b = 0;
+};
+
+/// A point cloud as it comes from a sensor or a file, before any preparation. Row-major if organised.
+struct Cloud {
+  std::uint32_t width = 0;              ///< columns; number of points if not organised
+  std::uint32_t height = 1;             ///< rows; 1 if not organised
+  std::vector<Eigen::Vector3f> points;  ///< width * height positions [m], sensor frame; NaN where nothing was measured
+  std::vector<Rgb> colors;              ///< empty (no colour), or one for each point
+  Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();  ///< place of the camera in the frame of the points [m]
+
+  bool organized() const { return height > 1; }
+  bool hasColor() const { return !colors.empty(); }
+  std::size_t size() const { return points.size(); }
+};
+
+}  // namespace sks

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <sks_detector/descriptors.hpp>
+#include <sks_detector/settings.hpp>
+
+namespace sks {
+
+/// What a training cloud shows.
+enum class ViewKind : std::uint8_t {
+  view,  ///< 2.5-D, seen from its sensor origin
+  model  ///< full 3-D
+};
+
+/// One training cloud: its frame is the model frame of the poses that its codewords lead to.
+struct TrainingView {
+  std::uint32_t object = 0;  ///< index into Codebook::objects
+  std::string source;        ///< where it came from, e.g. the path of the cloud in the data set file
+  ViewKind kind = ViewKind::view;
+  Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();  ///< [m], model frame
+  Eigen::Vector3f box_min = Eigen::Vector3f::Zero();        ///< corners of the axis-aligned bounding box [m]
+  Eigen::Vector3f box_max = Eigen::Vector3f::Zero();
+  std::vector<Eigen::Vector3f> surface_points;   ///< thinned surface [m], model frame
+  std::vector<Eigen::Vector3f> surface_normals;  ///< its unit normals
+
+  /// What the centre vectors of its codewords point to, and what a detection reports as its position.
+  Eigen::Vector3f center() const { return 0.5f * (box_min + box_max); }
+  Eigen::Vector3f extent() const { return box_max - box_min; }
+};
+
+/// Where a codeword was seen; its descriptor is the row of the same index in Codebook::descriptors.
+struct Codeword {
+  std::uint32_t view = 0;                               ///< index into Codebook::views
+  Eigen::Vector3f position = Eigen::Vector3f::Zero();   ///< keypoint p_t [m], model frame
+  Eigen::Matrix3f frame = Eigen::Matrix3f::Identity();  ///< local reference frame R_t; rows are the axes
+};
+
+/// All that training leaves behind (section 3.1: every codeword is kept). Immutable once built: share it as
+/// `std::shared_ptr<const Codebook>` between threads.
+struct Codebook {
+  std::string name;                                       ///< for people: the name of the data set, or as given
+  DescriptorType descriptor_type = DescriptorType::shot;  ///< what the descriptors are; never `automatic`
+  Settings settings;                                      ///< what it was trained with
+  std::vector<std::string> objects;                       ///< names, in order of their first training cloud
+  std::vector<TrainingView> views;
+  std::vector<Codeword> words;
+  DescriptorMatrix descriptors;  ///< words.size() rows
+  std::uint32_t checksum = 0;    ///< CRC-32C of the file's payload, 0 where it was never stored
+
+  const std::string& objectOf(const Codeword& word) const { return objects[views[word.view].object]; }
+};
+
+}  // namespace sks

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include <sks_detector/codebook.hpp>
+
+namespace sks {
+
+/// Version of the file format that this build writes; it reads this and all earlier ones.
+constexpr std::uint32_t codebook_file_version = 1;
+
+/// Writes a codebook whole or not at all (temporary name, sync, rename); see docs/codebook_file.md.
+/// @return the checksum that was stored
+/// @throws Error(bad_file) with the path and the system's reason
+std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook);
+
+/// Maps a codebook file; descriptors stay in the mapping, which lives as long as the result.
+/// Checks magic, version, checksum, FlatBuffers verifier and every index and length before anything is used.
+/// @throws Error(bad_file) naming the path and what is wrong: missing, foreign, truncated, damaged, newer
+std::shared_ptr<const Codebook> readCodebook(const std::string& path);
+
+}  // namespace sks

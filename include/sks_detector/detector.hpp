@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include <sks_detector/cloud.hpp>
+#include <sks_detector/codebook.hpp>
+#include <sks_detector/detection.hpp>
+#include <sks_detector/matching.hpp>
+#include <sks_detector/settings.hpp>
+
+namespace sks {
+
+/// Finds the objects of a codebook in clouds: composes the stages of section 3.2. One instance per thread; same cloud,
+/// same result, for any number of threads.
+class Detector {
+public:
+  /// @throws Error(bad_usage) for invalid settings, Error(incompatible) naming keys and values in which `settings`
+  ///         differ from what the codebook was trained with
+  Detector(std::shared_ptr<const Codebook> codebook, const Settings& settings);
+
+  /// @throws Error(bad_data) for an unusable cloud, Error(incompatible) for a cloud without colour with CSHOT
+  DetectionResult detect(const Cloud& cloud) const;
+
+  const Codebook& codebook() const { return *codebook_; }
+  const Settings& settings() const { return settings_; }
+
+private:
+  std::shared_ptr<const Codebook> codebook_;
+  Settings settings_;
+  Matcher matcher_;
+};
+
+}  // namespace sks

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <sks_detector/cloud.hpp>
+#include <sks_detector/codebook.hpp>
+#include <sks_detector/progress.hpp>
+#include <sks_detector/settings.hpp>
+
+namespace sks {
+
+/// One training cloud, loaded when its turn comes so that only one is in memory at a time.
+struct TrainingSample {
+  std::string object;  ///< name
+  std::string source;  ///< for people and for pose frames: the cloud's path in the data set file
+  ViewKind kind = ViewKind::view;
+  std::function<Cloud()> load;
+};
+
+/// Section 3.1: normals, grid keypoints without selection, descriptors, one codeword each.
+/// @param name of the codebook
+/// @param progress called before each sample, and once at the end
+/// @throws Error(bad_usage) for no samples or invalid settings; Error(bad_data) naming the sample whose cloud is
+///         unusable or yields no codeword; Error(cancelled)
+Codebook train(const std::vector<TrainingSample>& samples, const Settings& settings, const std::string& name,
+               const Progress& progress = {});
+
+}  // namespace sks
