@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Finds what the build needs. What Ubuntu 20.04 does not package (CLI11, Highway) is fetched at a pinned version where
+# it is not installed; for everything else a message names the apt package.
+include(FetchContent)
+include(CMakeParseArguments)
+
+# find_package() that names the apt package where nothing is found.
+macro(sks_find_package name apt_package)
+  find_package(${name} QUIET ${ARGN})
+  if(NOT ${name}_FOUND)
+    message(FATAL_ERROR
+      "sks_detector needs ${name}: install it with `apt-get install ${apt_package}`, or run scripts/install_dependencies.")
+  endif()
+endmacro()
+
+# A library that is added to this build from source, linked statically and not installed.
+macro(sks_fetch name repository tag)
+  message(STATUS "${name} is not installed: fetching ${tag} from ${repository}")
+  FetchContent_Declare(${name} GIT_REPOSITORY ${repository} GIT_TAG ${tag} GIT_SHALLOW TRUE)
+  FetchContent_GetProperties(${name})
+  if(NOT ${name}_POPULATED)
+    FetchContent_Populate(${name})
+    set(sks_saved_shared "${BUILD_SHARED_LIBS}")
+    set(BUILD_SHARED_LIBS OFF)
+    set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+    add_subdirectory(${${name}_SOURCE_DIR} ${${name}_BINARY_DIR} EXCLUDE_FROM_ALL)
+    set(BUILD_SHARED_LIBS "${sks_saved_shared}")
+  endif()
+endmacro()
+
+sks_find_package(Eigen3 libeigen3-dev)
+sks_find_package(PCL libpcl-dev COMPONENTS common io search kdtree features keypoints)
+sks_find_package(OpenMP libgomp1 COMPONENTS CXX)
+sks_find_package(yaml-cpp libyaml-cpp-dev)
+sks_find_package(nlohmann_json nlohmann-json3-dev)
+
+# The generated code needs only headers of FlatBuffers, whose CMake package has a different name in every release.
+find_path(FLATBUFFERS_INCLUDE_DIR flatbuffers/flatbuffers.h)
+find_program(FLATC_EXECUTABLE flatc)
+if(NOT FLATBUFFERS_INCLUDE_DIR OR NOT FLATC_EXECUTABLE)
+  message(FATAL_ERROR "sks_detector needs FlatBuffers: install it with `apt-get install libflatbuffers-dev "
+    "flatbuffers-compiler`, or run scripts/install_dependencies.")
+endif()
+
+add_library(sks_hwy INTERFACE)
+find_package(hwy CONFIG QUIET)
+if(NOT hwy_FOUND)
+  set(HWY_ENABLE_CONTRIB OFF CACHE BOOL "" FORCE)
+  set(HWY_ENABLE_EXAMPLES OFF CACHE BOOL "" FORCE)
+  set(HWY_ENABLE_INSTALL OFF CACHE BOOL "" FORCE)
+  set(HWY_ENABLE_TESTS OFF CACHE BOOL "" FORCE)
+  sks_fetch(hwy https://github.com/google/highway.git 1.0.3)
+endif()
+target_link_libraries(sks_hwy INTERFACE $<BUILD_INTERFACE:$<IF:$<TARGET_EXISTS:hwy::hwy>,hwy::hwy,hwy>>)
+
+if(SKS_BUILD_TOOLS)
+  sks_find_package(OpenCV libopencv-dev COMPONENTS core imgproc imgcodecs)
+  find_package(CLI11 CONFIG QUIET)
+  if(NOT CLI11_FOUND)
+    set(CLI11_BUILD_DOCS OFF CACHE BOOL "" FORCE)
+    set(CLI11_BUILD_EXAMPLES OFF CACHE BOOL "" FORCE)
+    set(CLI11_BUILD_TESTS OFF CACHE BOOL "" FORCE)
+    sks_fetch(CLI11 https://github.com/CLIUtils/CLI11.git v2.1.2)
+  endif()
+endif()
+
+# Generates <name>_generated.h from a schema into the build folder and lets `target` include it.
+function(sks_add_flatbuffers_header target schema)
+  get_filename_component(name ${schema} NAME_WE)
+  set(folder ${CMAKE_CURRENT_BINARY_DIR}/generated)
+  set(header ${folder}/${name}_generated.h)
+  add_custom_command(OUTPUT ${header}
+    COMMAND ${FLATC_EXECUTABLE} --cpp -o ${folder} ${CMAKE_CURRENT_SOURCE_DIR}/${schema}
+    DEPENDS ${schema}
+    COMMENT "Generating ${name}_generated.h"
+    VERBATIM)
+  target_sources(${target} PRIVATE ${header})
+  target_include_directories(${target} SYSTEM PRIVATE ${folder})
+endfunction()
