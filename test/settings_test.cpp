@@ -8,21 +8,13 @@
 
 #include <gtest/gtest.h>
 
-#include <sks_detector/error.hpp>
+#include "error_of.hpp"
 
 namespace {
 
-/// What the error of `action` says; fails the test if there is none or its code is not bad_usage.
 template <typename Action>
 std::string usageError(Action action) {
-  try {
-    action();
-  } catch (const sks::Error& error) {
-    EXPECT_EQ(error.code(), sks::ErrorCode::bad_usage);
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was thrown";
-  return "";
+  return sks::test::errorOf(sks::ErrorCode::bad_usage, action);
 }
 
 std::string setError(const std::string& key, const std::string& value) {

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/atomic_file.hpp"
+
+#include <atomic>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <sks_detector/error.hpp>
+
+namespace sks {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string systemReason() {
+  return std::generic_category().message(errno);
+}
+
+std::string folderOf(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  return folder.empty() ? "." : folder.string();
+}
+
+/// Makes the rename durable; where a file system cannot sync folders there is nothing more to be done.
+void syncFolder(const std::string& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(path) {
+  std::error_code ignored;
+  if (path.empty()) fail("the name is empty");
+  if (fs::is_directory(path, ignored)) fail("it is a folder; give the name of a file");
+  const std::string folder = folderOf(path);
+  if (!fs::is_directory(folder, ignored)) fail("the folder " + folder + " does not exist; create it first");
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
+    file_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file_ < 0) fail(systemReason());
+    return;
+  }
+  if (fs::is_symlink(path, ignored)) target_ = fs::weakly_canonical(path).string();
+  static std::atomic<unsigned> count{0};
+  temporary_ = target_ + ".part" + std::to_string(::getpid()) + "_" + std::to_string(count++);
+  file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file_ < 0) {
+    const std::string reason = systemReason();
+    temporary_.clear();
+    fail(reason + "; choose a folder that can be written to");
+  }
+}
+
+AtomicFile::~AtomicFile() {
+  if (file_ >= 0) ::close(file_);
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::write(const void* data, std::size_t size) {
+  const char* next = static_cast<const char*>(data);
+  while (size > 0) {
+    const ssize_t written = ::write(file_, next, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) fail(systemReason());
+    next += written;
+    size -= std::size_t(written);
+  }
+}
+
+void AtomicFile::commit() {
+  const bool renames = !temporary_.empty();
+  if (renames && ::fsync(file_) != 0) fail(systemReason());
+  const int closed = ::close(file_);
+  file_ = -1;
+  if (closed != 0) fail(systemReason());
+  if (!renames) return;
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(systemReason());
+  temporary_.clear();
+  syncFolder(folderOf(target_));
+}
+
+void AtomicFile::fail(const std::string& reason) const {
+  throw Error(ErrorCode::bad_file, "cannot write '" + path_ + "': " + reason);
+}
+
+}  // namespace sks

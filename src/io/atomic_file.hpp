@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace sks {
+
+/// A file that appears whole or not at all: it is written under a temporary name in the same folder, and commit()
+/// renames it. Where the path is no regular file (a pipe, a device), it is written directly.
+class AtomicFile {
+public:
+  /// @throws Error(bad_file) naming the path and the system's reason, as do write() and commit()
+  explicit AtomicFile(const std::string& path);
+  /// Removes what was written unless commit() succeeded.
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  void write(const void* data, std::size_t size);
+
+  /// Syncs the file, gives it its name in place of any older file, and syncs the folder.
+  void commit();
+
+private:
+  [[noreturn]] void fail(const std::string& reason) const;
+
+  std::string path_;       // as given, for messages
+  std::string target_;     // with symbolic links followed
+  std::string temporary_;  // empty where nothing is to be removed
+  int file_ = -1;
+};
+
+}  // namespace sks

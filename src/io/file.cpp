@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/file.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+#include <vector>
+
+#include <sks_detector/error.hpp>
+
+#include "io/atomic_file.hpp"
+
+namespace sks {
+
+void writeFileAtomically(const std::string& path, const std::string& content) {
+  AtomicFile file(path);
+  file.write(content.data(), content.size());
+  file.commit();
+}
+
+std::string readTextFile(const std::string& path, std::size_t max_bytes) {
+  const auto fail = [&](const std::string& reason) {
+    throw Error(ErrorCode::bad_file, "cannot read '" + path + "': " + reason);
+  };
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) fail("it is a folder; give the name of a file");
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) fail(std::generic_category().message(errno));
+  std::string content;
+  std::vector<char> block(1 << 16);  // grows with what is there, not with what a file says of its size
+  while (in.read(block.data(), std::streamsize(block.size())) || in.gcount() > 0) {
+    content.append(block.data(), std::size_t(in.gcount()));
+    if (content.size() > max_bytes) fail("it is larger than " + std::to_string(max_bytes) + " bytes");
+  }
+  if (in.bad()) fail(std::generic_category().message(errno));
+  return content;
+}
+
+}  // namespace sks
