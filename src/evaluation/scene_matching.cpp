@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/scene_matching.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace sks {
+namespace {
+
+/// Index of the instance of the detection's object that is nearest to it, of those for which `usable` holds.
+template <typename Predicate>
+std::optional<std::size_t> nearestGroundTruth(const Scene& scene, const Detection& detection, Predicate usable) {
+  std::optional<std::size_t> nearest;
+  double nearest_distance = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (scene.objects[i].object != detection.object || !usable(i)) continue;
+    const double distance = (scene.objects[i].position - detection.position()).norm();
+    if (distance < nearest_distance) {
+      nearest = i;
+      nearest_distance = distance;
+    }
+  }
+  return nearest;
+}
+
+double distanceTo(const Scene& scene, std::optional<std::size_t> ground_truth, const Detection& detection) {
+  if (!ground_truth) return std::numeric_limits<double>::infinity();
+  return (scene.objects[*ground_truth].position - detection.position()).norm();
+}
+
+/// Best first, in an order that depends on the detections alone.
+std::vector<Detection> ranked(const Scene& scene, const std::vector<Detection>& detections) {
+  const auto key = [&](const Detection& detection) {
+    const auto nearest = nearestGroundTruth(scene, detection, [](std::size_t) { return true; });
+    const Eigen::Vector3d p = detection.position();
+    return std::make_tuple(-detection.score, distanceTo(scene, nearest, detection), detection.object, p.x(), p.y(),
+                           p.z());
+  };
+  std::vector<std::pair<decltype(key(detections.front())), std::size_t>> order;
+  for (std::size_t i = 0; i < detections.size(); ++i) order.emplace_back(key(detections[i]), i);
+  std::sort(order.begin(), order.end());
+  std::vector<Detection> result;
+  for (const auto& item : order) result.push_back(detections[item.second]);
+  return result;
+}
+
+}  // namespace
+
+std::vector<JudgedDetection> matchScene(const Scene& scene, const std::vector<Detection>& detections,
+                                        double max_distance) {
+  std::vector<bool> taken(scene.objects.size(), false);
+  std::vector<JudgedDetection> judged;
+  for (const Detection& detection : ranked(scene, detections)) {
+    JudgedDetection result;
+    result.detection = detection;
+    const auto nearest = nearestGroundTruth(scene, detection, [&](std::size_t i) { return !taken[i]; });
+    if (isIgnored(scene, detection.object)) {
+      result.outcome = Outcome::ignored;
+    } else if (nearest && distanceTo(scene, nearest, detection) <= max_distance) {
+      taken[*nearest] = true;
+      result.outcome = Outcome::true_positive;
+      result.ground_truth = nearest;
+      const GroundTruth& truth = scene.objects[*nearest];
+      if (truth.T_scene_reference && !truth.reference.empty() && truth.reference == detection.view) {
+        result.pose_error = poseError(detection.T_scene_model, *truth.T_scene_reference, truth.position);
+      }
+    }
+    judged.push_back(std::move(result));
+  }
+  return judged;
+}
+
+std::size_t countedGroundTruth(const Scene& scene, const std::string& object) {
+  const auto counts = [&](const GroundTruth& truth) {
+    return (object.empty() || truth.object == object) && !isIgnored(scene, truth.object);
+  };
+  return std::size_t(std::count_if(scene.objects.begin(), scene.objects.end(), counts));
+}
+
+bool isIgnored(const Scene& scene, const std::string& object) {
+  return std::find(scene.ignore.begin(), scene.ignore.end(), object) != scene.ignore.end();
+}
+
+PoseError poseError(const Eigen::Isometry3d& T_scene_found, const Eigen::Isometry3d& T_scene_true,
+                    const Eigen::Vector3d& position) {
+  const Eigen::Vector3d center = T_scene_true.inverse() * position;  // in the reference's frame
+  PoseError error;
+  error.translation = (T_scene_found * center - position).norm();
+  const Eigen::Matrix3d difference = T_scene_found.linear() * T_scene_true.linear().transpose();
+  error.rotation = Eigen::AngleAxisd(difference).angle() * 180.0 / EIGEN_PI;
+  error.t_diff = (T_scene_found.matrix() - T_scene_true.matrix()).norm();
+  return error;
+}
+
+}  // namespace sks
