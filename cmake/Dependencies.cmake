@@ -3,31 +3,25 @@
 # Finds what the build needs. What Ubuntu 20.04 does not package (CLI11, Highway) is fetched at a pinned version where
 # it is not installed; for everything else a message names the apt package.
 include(FetchContent)
-include(CMakeParseArguments)
 
 # find_package() that names the apt package where nothing is found.
 macro(sks_find_package name apt_package)
   find_package(${name} QUIET ${ARGN})
   if(NOT ${name}_FOUND)
     message(FATAL_ERROR
-      "sks_detector needs ${name}: install it with `apt-get install ${apt_package}`, or run scripts/install_dependencies.")
+      "${PROJECT_NAME} needs ${name}: install it with `apt-get install ${apt_package}`, or run scripts/install_dependencies.")
   endif()
 endmacro()
 
-# A library that is added to this build from source, linked statically and not installed.
-macro(sks_fetch name repository tag)
+# Adds a library to this build from source, linked statically.
+function(sks_fetch name repository tag)
   message(STATUS "${name} is not installed: fetching ${tag} from ${repository}")
+  set(BUILD_SHARED_LIBS OFF)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+  set(FETCHCONTENT_QUIET OFF)
   FetchContent_Declare(${name} GIT_REPOSITORY ${repository} GIT_TAG ${tag} GIT_SHALLOW TRUE)
-  FetchContent_GetProperties(${name})
-  if(NOT ${name}_POPULATED)
-    FetchContent_Populate(${name})
-    set(sks_saved_shared "${BUILD_SHARED_LIBS}")
-    set(BUILD_SHARED_LIBS OFF)
-    set(CMAKE_POSITION_INDEPENDENT_CODE ON)
-    add_subdirectory(${${name}_SOURCE_DIR} ${${name}_BINARY_DIR} EXCLUDE_FROM_ALL)
-    set(BUILD_SHARED_LIBS "${sks_saved_shared}")
-  endif()
-endmacro()
+  FetchContent_MakeAvailable(${name})
+endfunction()
 
 sks_find_package(Eigen3 libeigen3-dev)
 sks_find_package(PCL libpcl-dev COMPONENTS common io search kdtree features keypoints)
@@ -39,20 +33,21 @@ sks_find_package(nlohmann_json nlohmann-json3-dev)
 find_path(FLATBUFFERS_INCLUDE_DIR flatbuffers/flatbuffers.h)
 find_program(FLATC_EXECUTABLE flatc)
 if(NOT FLATBUFFERS_INCLUDE_DIR OR NOT FLATC_EXECUTABLE)
-  message(FATAL_ERROR "sks_detector needs FlatBuffers: install it with `apt-get install libflatbuffers-dev "
+  message(FATAL_ERROR "${PROJECT_NAME} needs FlatBuffers: install it with `apt-get install libflatbuffers-dev "
     "flatbuffers-compiler`, or run scripts/install_dependencies.")
 endif()
 
-add_library(sks_hwy INTERFACE)
 find_package(hwy CONFIG QUIET)
-if(NOT hwy_FOUND)
+if(hwy_FOUND)
+  set(sks_hwy_target hwy::hwy)
+else()
+  set(sks_hwy_target hwy)
   set(HWY_ENABLE_CONTRIB OFF CACHE BOOL "" FORCE)
   set(HWY_ENABLE_EXAMPLES OFF CACHE BOOL "" FORCE)
   set(HWY_ENABLE_INSTALL OFF CACHE BOOL "" FORCE)
   set(HWY_ENABLE_TESTS OFF CACHE BOOL "" FORCE)
   sks_fetch(hwy https://github.com/google/highway.git 1.0.3)
 endif()
-target_link_libraries(sks_hwy INTERFACE $<BUILD_INTERFACE:$<IF:$<TARGET_EXISTS:hwy::hwy>,hwy::hwy,hwy>>)
 
 if(SKS_BUILD_TOOLS)
   sks_find_package(OpenCV libopencv-dev COMPONENTS core imgproc imgcodecs)

@@ -1,6 +1,3 @@
-@PACKAGE_INIT@
-
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3)
 include("${CMAKE_CURRENT_LIST_DIR}/sks_detectorTargets.cmake")
-check_required_components(sks_detector)
