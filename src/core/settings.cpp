@@ -2,7 +2,6 @@
 #include <sks_detector/settings.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <thread>
 #include <type_traits>
 #include <utility>
@@ -16,9 +15,11 @@
 namespace sks {
 namespace {
 
-std::string rangeText(const About& about) {
-  const std::string unit = *about.unit ? std::string(" [") + about.unit + "]" : "";
-  return toText(about.range.min) + " to " + toText(about.range.max) + unit;
+template <typename T>
+const char* typeName() {
+  if (std::is_same_v<T, double>) return "double";
+  if (std::is_same_v<T, int>) return "int";
+  return std::is_same_v<T, bool> ? "bool" : "choice";
 }
 
 template <typename T>
@@ -27,38 +28,32 @@ std::vector<std::string> choicesOf() {
   return {};
 }
 
-template <typename T>
-const char* typeName() {
-  if (std::is_same_v<T, double>) return "double";
-  if (std::is_same_v<T, int>) return "int";
-  return std::is_same_v<T, bool> ? "bool" : "choice";
+const SettingInfo& infoOf(const std::string& key) {
+  const auto& infos = settingInfos();
+  const auto found = std::find_if(infos.begin(), infos.end(), [&](const SettingInfo& info) { return info.key == key; });
+  if (found != infos.end()) return *found;
+  throw Error(ErrorCode::bad_usage, "unknown setting '" + key + "': did you mean '" + nearestSettingKey(key) + "'?");
 }
 
-/// What a text must be to be a value of type T.
-template <typename T>
-std::string expectation(const About& about) {
-  if constexpr (std::is_same_v<T, bool>) {
-    return "true or false";
-  } else if constexpr (std::is_enum_v<T>) {
-    const std::vector<std::string> names = choicesOf<T>();
-    return std::accumulate(names.begin() + 1, names.end(), "one of " + names.front(),
-                           [](const std::string& list, const std::string& name) { return list + ", " + name; });
-  } else {
-    return std::string(std::is_same_v<T, int> ? "a whole number" : "a number") + " in " + rangeText(about);
-  }
+std::string withUnit(const SettingInfo& info) {
+  return allowedValues(info) + (info.unit.empty() ? "" : " [" + info.unit + "]");
+}
+
+/// What a text must be to be a value of the setting.
+std::string expectation(const SettingInfo& info) {
+  if (info.type == "bool") return "true or false";
+  if (info.type == "choice") return "one of " + allowedValues(info);
+  return (info.type == "int" ? "a whole number in " : "a number in ") + withUnit(info);
 }
 
 template <typename T>
-void checkRange(const std::string& key, const T& value, const About& about) {
+void checkRange(const std::string& key, const T& value) {
   if constexpr (std::is_same_v<T, double> || std::is_same_v<T, int>) {
-    if (!(value >= about.range.min && value <= about.range.max)) {  // so that NaN fails too
-      throw Error(ErrorCode::bad_usage, key + " = " + toText(value) + " is out of range: " + rangeText(about));
+    const SettingInfo& info = infoOf(key);
+    if (!(value >= info.range.min && value <= info.range.max)) {  // so that NaN fails too
+      throw Error(ErrorCode::bad_usage, key + " = " + toText(value) + " is out of range: " + withUnit(info));
     }
   }
-}
-
-[[noreturn]] void throwUnknown(const std::string& key) {
-  throw Error(ErrorCode::bad_usage, "unknown setting '" + key + "': did you mean '" + nearestSettingKey(key) + "'?");
 }
 
 std::string lastPart(const std::string& key) {
@@ -100,36 +95,29 @@ const std::vector<SettingInfo>& settingInfos() {
 }
 
 std::string getSetting(const Settings& settings, const std::string& wanted) {
+  infoOf(wanted);
   std::string text;
-  bool found = false;
   forEachSetting(settings, [&](const std::string& key, const auto& value, const About&) {
-    if (key != wanted) return;
-    text = toText(value);
-    found = true;
+    if (key == wanted) text = toText(value);
   });
-  if (!found) throwUnknown(wanted);
   return text;
 }
 
 void setSetting(Settings& settings, const std::string& wanted, const std::string& text) {
-  bool found = false;
-  forEachSetting(settings, [&](const std::string& key, auto& value, const About& about) {
+  const SettingInfo& info = infoOf(wanted);
+  forEachSetting(settings, [&](const std::string& key, auto& value, const About&) {
     if (key != wanted) return;
-    found = true;
     std::decay_t<decltype(value)> parsed{};
     if (!fromText(text, parsed)) {
-      throw Error(ErrorCode::bad_usage,
-                  key + " = " + text + ": expected " + expectation<std::decay_t<decltype(value)>>(about));
+      throw Error(ErrorCode::bad_usage, key + " = " + text + ": expected " + expectation(info));
     }
-    checkRange(key, parsed, about);
+    checkRange(key, parsed);
     value = parsed;
   });
-  if (!found) throwUnknown(wanted);
 }
 
 void validate(const Settings& settings) {
-  forEachSetting(settings,
-                 [](const std::string& key, const auto& value, const About& about) { checkRange(key, value, about); });
+  forEachSetting(settings, [](const std::string& key, const auto& value, const About&) { checkRange(key, value); });
   for (const auto& [less, greater] : ordered) {
     if (numberOf(settings, less) < numberOf(settings, greater)) continue;
     throw Error(ErrorCode::bad_usage, std::string(less) + " = " + getSetting(settings, less) + " must be less than " +

@@ -46,4 +46,12 @@ bool fromText(const std::string& text, bool& value) {
   return value || text == "false";
 }
 
+std::string allowedValues(const SettingInfo& info) {
+  if (info.type == "bool") return "true, false";
+  if (info.type != "choice") return toText(info.range.min) + " to " + toText(info.range.max);
+  std::string list;
+  for (const std::string& choice : info.choices) list += (list.empty() ? "" : ", ") + choice;
+  return list;
+}
+
 }  // namespace sks

@@ -33,4 +33,7 @@ bool fromText(const std::string& text, Enum& value) {
   return found != names.end();
 }
 
+/// What a setting may be: "0 to 0.99", "auto, shot, cshot" or "true, false".
+std::string allowedValues(const SettingInfo& info);
+
 }  // namespace sks
