@@ -52,12 +52,14 @@ private:
 };
 
 DataSet DataSetReader::read() {
-  YAML::Node root;
+  std::vector<YAML::Node> documents;
   try {
-    root = YAML::Load(readTextFile(file_));
+    documents = YAML::LoadAll(readTextFile(file_));
   } catch (const YAML::Exception& e) {
-    throw Error(ErrorCode::bad_file, file_ + ":" + std::to_string(e.mark.line + 1) + ": no YAML: " + e.msg);
+    throw Error(ErrorCode::bad_file, file_ + ":" + std::to_string(e.mark.line + 1) + ": not a YAML file: " + e.msg);
   }
+  if (documents.size() > 1) failAt(file_, documents[1], "a second document in one data set file; keep one");
+  const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
   const YamlMap map = mapOf(root, "the data set", {"name", "units", "max_distance", "training", "scenes", "tests"});
   data_set_.name = map.text("name");
   readUnits(map);

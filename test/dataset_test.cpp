@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/dataset.hpp>
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sks_detector/cloud_io.hpp>
+#include <sks_detector/file.hpp>
+
+#include "error_of.hpp"
+#include "temporary_folder.hpp"
+
+namespace sks {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const std::string head = "name: toys\nunits: mm\nmax_distance: 50\n";
+
+class DataSetFile : public ::testing::Test {
+protected:
+  void SetUp() override {
+    for (const std::string folder : {"sets", "views", "sets/scenes"}) {
+      std::filesystem::create_directory(folder_.path(folder));
+    }
+    Cloud cloud;
+    cloud.width = 1;
+    cloud.points = {{1000, 2000, 3000}};
+    for (const std::string name : {"views/duck0.pcd", "views/duck1.pcd", "sets/scenes/a.pcd", "sets/scenes/b.pcd"}) {
+      writeCloud(folder_.path(name), cloud);
+    }
+  }
+
+  DataSet load(const std::string& text) const {
+    writeFileAtomically(file(), text);
+    return loadDataSet(file());
+  }
+  std::string refusal(const std::string& text, ErrorCode code = ErrorCode::bad_data) const {
+    return test::errorOf(code, [&] { load(text); });
+  }
+  std::string file() const { return folder_.path("sets/toys.yaml"); }
+  /// A data set of one scene with one duck, whose entry has the given further keys.
+  std::string withDuck(const std::string& keys) const {
+    return head + "scenes:\n  - name: a\n    cloud: scenes/a.pcd\n    objects:\n      - object: duck\n        " + keys;
+  }
+
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(DataSetFile, IsReadInMetres) {
+  const DataSet data_set = load(head + R"(training:
+  - {object: duck, cloud: ../views/./duck0.pcd, kind: view}
+  - {object: swan, cloud: ../views/duck1.pcd, kind: model}
+scenes:
+  - name: a
+    cloud: scenes/a.pcd
+    objects:
+      - object: duck
+        position: [100, 0, 500]
+        reference: ../views/duck0.pcd
+        pose: [0, -1, 0, 10, 1, 0, 0, 20, 0, 0, 1, 30, 0, 0, 0, 1]
+        visibility: 0.7
+    ignore: [swan]
+  - {name: b, cloud: scenes/b.pcd, objects: []}
+tests:
+  - {object: duck, cloud: ../views/duck1.pcd}
+)");
+  EXPECT_EQ(data_set.name, "toys");
+  EXPECT_EQ(data_set.scale, 0.001);
+  EXPECT_DOUBLE_EQ(data_set.max_distance, 0.05);
+  EXPECT_THAT(data_set.warnings, IsEmpty());
+
+  ASSERT_EQ(data_set.training.size(), 2u);
+  EXPECT_EQ(data_set.training[0].object, "duck");
+  EXPECT_EQ(data_set.training[0].source, "../views/duck0.pcd");
+  EXPECT_EQ(data_set.training[0].path, folder_.path("views/duck0.pcd"));
+  EXPECT_EQ(data_set.training[0].kind, ViewKind::view);
+  EXPECT_EQ(data_set.training[1].kind, ViewKind::model);
+
+  ASSERT_EQ(data_set.scenes.size(), 2u);
+  const Scene& scene = data_set.scenes[0];
+  EXPECT_EQ(scene.path, folder_.path("sets/scenes/a.pcd"));
+  EXPECT_THAT(scene.ignore, ElementsAre("swan"));
+  ASSERT_EQ(scene.objects.size(), 1u);
+  const GroundTruth& truth = scene.objects[0];
+  EXPECT_TRUE(truth.position.isApprox(Eigen::Vector3d(0.1, 0, 0.5)));
+  EXPECT_EQ(truth.reference, data_set.training[0].source);
+  EXPECT_EQ(truth.visibility, 0.7);
+  ASSERT_TRUE(truth.T_scene_reference);
+  EXPECT_TRUE((*truth.T_scene_reference * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(0.01, 1.02, 0.03), 1e-12));
+  EXPECT_THAT(data_set.scenes[1].objects, IsEmpty());
+
+  ASSERT_EQ(data_set.tests.size(), 1u);
+  EXPECT_EQ(data_set.tests[0].object, "duck");
+}
+
+TEST_F(DataSetFile, LoadsTrainingCloudsWhenTheirTurnComes) {
+  const auto samples =
+      trainingSamples(load(head + "training:\n  - {object: duck, cloud: ../views/duck0.pcd, kind: model}\n"));
+  ASSERT_EQ(samples.size(), 1u);
+  EXPECT_EQ(samples[0].object, "duck");
+  EXPECT_EQ(samples[0].source, "../views/duck0.pcd");
+  EXPECT_EQ(samples[0].kind, ViewKind::model);
+  const Cloud cloud = samples[0].load();
+  ASSERT_EQ(cloud.size(), 1u);
+  EXPECT_TRUE(cloud.points[0].isApprox(Eigen::Vector3f(1, 2, 3)));
+}
+
+TEST_F(DataSetFile, UnknownKeysAreRefusedWithTheNearest) {
+  EXPECT_EQ(refusal(head + "scene: []\n"), file() + ":4: unknown key 'scene' in the data set; did you mean 'scenes'?");
+  EXPECT_EQ(refusal(head + "training:\n  - object: duck\n    clowd: x.pcd\n"),
+            file() + ":6: unknown key 'clowd' in a training cloud; did you mean 'cloud'?");
+  EXPECT_THAT(refusal(withDuck("visible: 1")), HasSubstr(":9: unknown key 'visible' in an object of scene 'a'; did you "
+                                                         "mean 'visibility'?"));
+  EXPECT_THAT(refusal(head + "name: again\n"), HasSubstr(":4: key 'name' stands twice"));
+}
+
+TEST_F(DataSetFile, UnitsOtherThanMetresAndMillimetresAreRefused) {
+  EXPECT_EQ(refusal("name: toys\nunits: cm\n"),
+            file() + ":2: 'units' of the data set is 'cm': use m or mm, the unit of every length");
+  EXPECT_THAT(refusal("name: toys\n"), HasSubstr("the data set needs the key 'units'"));
+}
+
+TEST_F(DataSetFile, MissingCloudsAreFoundAtOnce) {
+  const std::string message =
+      refusal(head + "scenes:\n  - {name: a, cloud: scenes/none.pcd, objects: []}\n", ErrorCode::bad_file);
+  EXPECT_THAT(message, HasSubstr(file() + ":5: cloud '" + folder_.path("sets/scenes/none.pcd") + "' does not exist"));
+  EXPECT_THAT(message, HasSubstr("relative to the data set file"));
+  refusal(head + "training:\n  - {object: duck, cloud: none.pcd, kind: view}\n", ErrorCode::bad_file);
+  refusal(head + "tests:\n  - {object: duck, cloud: none.pcd}\n", ErrorCode::bad_file);
+}
+
+TEST_F(DataSetFile, AMissingOrForeignFileIsNamed) {
+  const std::string nowhere = folder_.path("nowhere.yaml");
+  EXPECT_THAT(test::errorOf(ErrorCode::bad_file, [&] { loadDataSet(nowhere); }), HasSubstr(nowhere));
+  EXPECT_THAT(refusal("name: [1, 2\n", ErrorCode::bad_file), HasSubstr("not a YAML file"));
+  EXPECT_THAT(refusal(""), HasSubstr("must be a map"));
+  EXPECT_THAT(refusal("- a\n- b\n"), HasSubstr("must be a map"));
+  EXPECT_THAT(refusal(head + "---\n" + head), HasSubstr("a second document"));
+  EXPECT_THAT(refusal(head), HasSubstr("needs 'training', 'scenes' or 'tests'"));
+}
+
+TEST_F(DataSetFile, PosesMustBeRigid) {
+  const std::string position = "position: [0, 0, 1]\n        ";
+  EXPECT_THAT(refusal(withDuck(position + "pose: [1, 2, 3]\n")),
+              HasSubstr(":10: 'pose' of an object of scene 'a' must be a list of 16 finite numbers"));
+  EXPECT_THAT(refusal(withDuck(position + "pose: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, .nan, 0, 0, 0, 1]\n")),
+              HasSubstr("16 finite numbers"));
+  EXPECT_THAT(refusal(withDuck(position + "pose: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1]\n")),
+              HasSubstr("must end with 0, 0, 0, 1"));
+  for (const std::string bad : {"2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0", "-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0",
+                                "1, 0.1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0"}) {
+    EXPECT_THAT(refusal(withDuck(position + "pose: [" + bad + ", 0, 0, 0, 1]\n")), HasSubstr("is not rigid"));
+  }
+}
+
+TEST_F(DataSetFile, ARoundedRotationIsMadeExact) {
+  const DataSet data_set =
+      load(withDuck("position: [0, 0, 1]\n        reference: ../views/duck0.pcd\n        pose: [0.707, -0.707, 0, 0, "
+                    "0.707, 0.707, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n"));
+  const Eigen::Matrix3d rotation = data_set.scenes[0].objects[0].T_scene_reference->linear();
+  EXPECT_LT((rotation * rotation.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  EXPECT_NEAR(rotation(0, 0), std::sqrt(0.5), 1e-12);
+}
+
+TEST_F(DataSetFile, ValuesOfTheWrongKindAreRefused) {
+  EXPECT_THAT(refusal(withDuck("position: [0, 0]\n")), HasSubstr("must be a list of 3 finite numbers"));
+  EXPECT_THAT(refusal(withDuck("visibility: 0.5\n")), HasSubstr("needs the key 'position'"));
+  EXPECT_THAT(refusal(withDuck("position: [0, 0, 1]\n        visibility: 70\n")), HasSubstr("must lie in [0, 1]"));
+  EXPECT_THAT(refusal("name: toys\nunits: m\nmax_distance: far\nscenes: [1]\n"), HasSubstr("must be a finite number"));
+  EXPECT_THAT(refusal("name: toys\nunits: m\nmax_distance: 0\nscenes: [1]\n"), HasSubstr("greater than 0 m"));
+  EXPECT_THAT(refusal("name: toys\nunits: m\nscenes: [1]\n"), HasSubstr("needs the key 'max_distance'"));
+  EXPECT_THAT(refusal(head + "scenes: 3\n"), HasSubstr("'scenes' of the data set must be a list"));
+  EXPECT_THAT(refusal(head + "training:\n  - {object: duck, cloud: ../views/duck0.pcd, kind: photo}\n"),
+              HasSubstr("'kind' of a training cloud is 'photo': use view (2.5-D, seen from the camera) or model"));
+}
+
+TEST_F(DataSetFile, ScenesNeedNamesOfTheirOwn) {
+  EXPECT_THAT(refusal(head + "scenes:\n  - {name: a, cloud: scenes/a.pcd}\n  - {name: a, cloud: scenes/b.pcd}\n"),
+              HasSubstr(":6: 'name' of a scene is 'a', which an earlier scene has"));
+}
+
+TEST_F(DataSetFile, WarnsOfWhatIsOdd) {
+  const std::string pose = "pose: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n";
+  const DataSet no_reference = load(withDuck("position: [0, 0, 1]\n        " + pose));
+  EXPECT_THAT(no_reference.warnings, ElementsAre(HasSubstr("toys.yaml:10: a pose without 'reference'")));
+  const DataSet missing = load(withDuck("position: [0, 0, 1]\n        reference: gone.pcd\n"));
+  EXPECT_THAT(missing.warnings, ElementsAre(HasSubstr("gone.pcd' does not exist")));
+  const DataSet ignored = load(withDuck("position: [0, 0, 1]\n    ignore: [duck]\n"));
+  EXPECT_THAT(ignored.warnings, ElementsAre(HasSubstr("'duck' of scene 'a' is ignored although it has ground truth")));
+}
+
+TEST_F(DataSetFile, NamesObjectsThatWereNeverTrained) {
+  const DataSet data_set =
+      load(head +
+           "scenes:\n  - name: a\n    cloud: scenes/a.pcd\n    objects:\n"
+           "      - {object: swan, position: [0, 0, 1]}\n      - {object: duck, position: [0, 0, 1]}\n"
+           "      - {object: swan, position: [0, 0, 2]}\n");
+  EXPECT_THAT(untrainedObjects(data_set, {"duck", "frog"}), ElementsAre("swan"));
+  EXPECT_THAT(untrainedObjects(data_set, {"duck", "swan"}), IsEmpty());
+}
+
+}  // namespace
+}  // namespace sks
