@@ -43,10 +43,6 @@ struct JudgedDetection {
 std::vector<JudgedDetection> matchScene(const Scene& scene, const std::vector<Detection>& detections,
                                         double max_distance);
 
-/// Number of instances of the scene that count, i.e. whose object is not ignored there; of one object if `object` is
-/// not empty.
-std::size_t countedGroundTruth(const Scene& scene, const std::string& object = {});
-
 /// Whether an object is on the scene's ignore list.
 bool isIgnored(const Scene& scene, const std::string& object);
 

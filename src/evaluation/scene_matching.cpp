@@ -71,13 +71,6 @@ std::vector<JudgedDetection> matchScene(const Scene& scene, const std::vector<De
   return judged;
 }
 
-std::size_t countedGroundTruth(const Scene& scene, const std::string& object) {
-  const auto counts = [&](const GroundTruth& truth) {
-    return (object.empty() || truth.object == object) && !isIgnored(scene, truth.object);
-  };
-  return std::size_t(std::count_if(scene.objects.begin(), scene.objects.end(), counts));
-}
-
 bool isIgnored(const Scene& scene, const std::string& object) {
   return std::find(scene.ignore.begin(), scene.ignore.end(), object) != scene.ignore.end();
 }

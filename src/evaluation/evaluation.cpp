@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/evaluation.hpp>
+
+#include <numeric>
+
+#include <sks_detector/cloud_io.hpp>
+#include <sks_detector/error.hpp>
+
+#include "evaluation/peak_memory.hpp"
+
+namespace sks {
+namespace {
+
+std::optional<Spread> spreadOf(const std::vector<double>& values) {
+  if (values.empty()) return std::nullopt;
+  return Spread{*percentile(values, 0.5), *percentile(values, 0.9)};
+}
+
+PoseErrors summarize(const std::vector<PoseError>& errors) {
+  std::vector<double> translation, rotation, t_diff;
+  for (const PoseError& error : errors) {
+    translation.push_back(error.translation);
+    rotation.push_back(error.rotation);
+    t_diff.push_back(error.t_diff);
+  }
+  return {errors.size(), spreadOf(translation), spreadOf(rotation), spreadOf(t_diff)};
+}
+
+/// Gathers what a score is made of, over scenes.
+struct Gathered {
+  std::size_t ground_truth = 0;
+  std::vector<RankedDetection> ranking;
+  std::vector<PoseError> pose_errors;
+
+  void add(const JudgedDetection& judged, double threshold) {
+    const bool hit = judged.outcome == Outcome::true_positive;
+    ranking.push_back({judged.detection.score, hit});
+    if (judged.pose_error && judged.detection.score >= threshold) pose_errors.push_back(*judged.pose_error);
+  }
+
+  Score score(double threshold) const {
+    Score result;
+    result.tally = tallyAt(ranking, ground_truth, threshold);
+    result.average_precision = averagePrecision(precisionRecallCurve(ranking, ground_truth), ground_truth);
+    result.ranking = ranking;
+    result.pose = summarize(pose_errors);
+    return result;
+  }
+};
+
+std::vector<std::pair<std::string, TimeSpread>> timeSpreads(const std::vector<SceneResult>& scenes) {
+  std::vector<std::pair<std::string, std::vector<double>>> stages;
+  for (const auto& stage : namedTimes(StageTimes())) stages.emplace_back(stage.first, std::vector<double>());
+  for (const SceneResult& scene : scenes) {
+    const auto times = namedTimes(scene.times);
+    for (std::size_t i = 0; i < times.size(); ++i) stages[i].second.push_back(1000 * times[i].second);
+  }
+  std::vector<std::pair<std::string, TimeSpread>> result;
+  if (scenes.empty()) return result;
+  for (const auto& [name, values] : stages) {
+    const double sum = std::accumulate(values.begin(), values.end(), 0.0);
+    result.emplace_back(name,
+                        TimeSpread{sum / double(values.size()), *percentile(values, 0.5), *percentile(values, 0.95)});
+  }
+  return result;
+}
+
+SceneResult evaluateScene(const DataSet& data_set, const Scene& scene, const DetectFunction& detect) {
+  try {
+    const DetectionResult found = detect(readCloud(scene.path, data_set.scale));
+    return {scene, matchScene(scene, found.detections, data_set.max_distance), found.times, found.counts};
+  } catch (const Error& error) {
+    throw Error(error.code(), "scene '" + scene.name + "' (" + scene.path + "): " + error.what());
+  }
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, double>> namedTimes(const StageTimes& times) {
+  return {{"total", times.total},         {"sanitize", times.sanitize},        {"normals", times.normals},
+          {"keypoints", times.keypoints}, {"descriptors", times.descriptors},  {"matching", times.matching},
+          {"voting", times.voting},       {"verification", times.verification}};
+}
+
+Evaluation evaluate(const DataSet& data_set, const DetectFunction& detect, const std::string& method,
+                    const Settings& settings, const Progress& progress) {
+  if (data_set.scenes.empty()) {
+    throw Error(ErrorCode::bad_data, "'" + data_set.file + "' has no scenes to evaluate; add some under 'scenes'");
+  }
+  Evaluation evaluation;
+  evaluation.data_set = data_set.name;
+  evaluation.method = method;
+  evaluation.settings = settings;
+  evaluation.threshold = settings.detection.threshold;
+  evaluation.max_distance = data_set.max_distance;
+  for (const Scene& scene : data_set.scenes) {
+    report(progress, {"evaluating", scene.name, evaluation.scenes.size(), data_set.scenes.size()});
+    evaluation.scenes.push_back(evaluateScene(data_set, scene, detect));
+  }
+  report(progress, {"evaluating", "", evaluation.scenes.size(), data_set.scenes.size()});
+  scoreScenes(evaluation);
+  evaluation.peak_memory_mb = peakMemoryMb();
+  return evaluation;
+}
+
+void scoreScenes(Evaluation& evaluation) {
+  Gathered total;
+  std::map<std::string, Gathered> objects;
+  for (const SceneResult& result : evaluation.scenes) {
+    for (const GroundTruth& truth : result.scene.objects) {
+      if (isIgnored(result.scene, truth.object)) continue;
+      ++total.ground_truth;
+      ++objects[truth.object].ground_truth;
+    }
+    for (const JudgedDetection& judged : result.detections) {
+      if (judged.outcome == Outcome::ignored) continue;
+      total.add(judged, evaluation.threshold);
+      objects[judged.detection.object].add(judged, evaluation.threshold);
+    }
+  }
+  evaluation.total = total.score(evaluation.threshold);
+  evaluation.objects.clear();
+  for (const auto& [name, gathered] : objects) evaluation.objects[name] = gathered.score(evaluation.threshold);
+  evaluation.times = timeSpreads(evaluation.scenes);
+}
+
+}  // namespace sks

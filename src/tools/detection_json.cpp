@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/detection_json.hpp"
+
+#include <sks_detector/evaluation.hpp>
+
+namespace sks::tools {
+
+nlohmann::json detectionJson(const Detection& detection) {
+  return {{"object", detection.object},
+          {"score", detection.score},
+          {"position", vectorJson(detection.position())},
+          {"pose", poseJson(detection.T_scene_model)},
+          {"box_pose", poseJson(detection.T_scene_box)},
+          {"box_size", vectorJson(detection.box_size)},
+          {"view", detection.view},
+          {"density", detection.density},
+          {"votes", detection.votes},
+          {"inliers", detection.inliers}};
+}
+
+nlohmann::json poseJson(const Eigen::Isometry3d& pose) {
+  nlohmann::json json = nlohmann::json::array();
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 4; ++column) json.push_back(pose.matrix()(row, column));
+  }
+  return json;
+}
+
+nlohmann::json vectorJson(const Eigen::Vector3d& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+nlohmann::json timesJson(const StageTimes& times) {
+  nlohmann::json json;
+  for (const auto& [name, seconds] : namedTimes(times)) json[name] = 1000 * seconds;
+  return json;
+}
+
+nlohmann::json countsJson(const StageCounts& counts) {
+  return {{"input_points", counts.input_points},     {"points", counts.points},
+          {"grid_keypoints", counts.grid_keypoints}, {"keypoints", counts.keypoints},
+          {"descriptors", counts.descriptors},       {"votes", counts.votes},
+          {"hypotheses", counts.hypotheses}};
+}
+
+}  // namespace sks::tools
