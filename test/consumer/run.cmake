@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# Installs the package, builds the consumer against it in an empty folder and runs both the consumer and, where it was
+# installed, the command line. Called as cmake -D... -P run.cmake with
+#   SOURCE_DIR  root of the checkout
+#   WORK_DIR    folder for everything that is written; emptied first, but for a build of SOURCE_DIR
+#   BUILD_DIR   build to install; if empty, SOURCE_DIR is built as plain CMake first
+#   SPACE_DIR   if set, folder of sks_detectorConfig.cmake to use in place of an installation (catkin's devel space)
+cmake_minimum_required(VERSION 3.16)
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result)
+  if(NOT result EQUAL 0)
+    string(REPLACE ";" " " command "${ARGN}")
+    message(FATAL_ERROR "${command}: ${result}")
+  endif()
+endfunction()
+
+set(prefix ${WORK_DIR}/prefix)
+set(consumer ${WORK_DIR}/consumer)
+file(REMOVE_RECURSE ${prefix} ${consumer})
+
+if(SPACE_DIR)
+  set(location -Dsks_detector_DIR=${SPACE_DIR})
+else()
+  set(location -DCMAKE_PREFIX_PATH=${prefix})
+  if(NOT BUILD_DIR)
+    set(BUILD_DIR ${WORK_DIR}/build)
+    run(${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${BUILD_DIR} -DSKS_BUILD_TESTING=OFF -DSKS_BUILD_BENCHMARKS=OFF)
+    cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+    run(${CMAKE_COMMAND} --build ${BUILD_DIR} --parallel ${cores})
+  endif()
+  run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${prefix})
+endif()
+
+run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${consumer} ${location})
+run(${CMAKE_COMMAND} --build ${consumer})
+run(${consumer}/consumer)
+if(EXISTS ${prefix}/bin/sks)
+  run(${prefix}/bin/sks --help)
+endif()
