@@ -64,6 +64,18 @@ TEST(Metrics, FindsTheThresholdOfTheHighestF1) {
   EXPECT_FALSE(bestPoint(precisionRecallCurve({{0.9, false}}, 0)));
 }
 
+TEST(Metrics, SweepsThresholdsFromZeroToOne) {
+  const std::vector<CurvePoint> sweep = thresholdSweep(ranking, 5);
+  ASSERT_EQ(sweep.size(), 21u);
+  EXPECT_EQ(sweep[0].threshold, 0.0);
+  EXPECT_EQ(sweep[0].tally.false_positives, 2u);
+  EXPECT_EQ(sweep[14].threshold, 0.7);  // the threshold itself counts
+  EXPECT_EQ(sweep[14].tally.true_positives, 2u);
+  EXPECT_EQ(sweep[15].tally.true_positives, 1u);
+  EXPECT_EQ(sweep[20].threshold, 1.0);
+  EXPECT_FALSE(sweep[20].tally.precision());
+}
+
 TEST(Metrics, PercentileInterpolatesBetweenRanks) {
   EXPECT_FALSE(percentile({}, 0.5));
   EXPECT_EQ(percentile({7}, 0.95), 7.0);

@@ -73,6 +73,16 @@ std::optional<CurvePoint> bestPoint(const std::vector<CurvePoint>& curve) {
   return best;
 }
 
+std::vector<CurvePoint> thresholdSweep(const std::vector<RankedDetection>& detections, std::size_t ground_truth) {
+  constexpr int steps = 20;
+  std::vector<CurvePoint> sweep;
+  for (int i = 0; i <= steps; ++i) {
+    const double threshold = double(i) / steps;
+    sweep.push_back({threshold, tallyAt(detections, ground_truth, threshold)});
+  }
+  return sweep;
+}
+
 std::optional<double> percentile(std::vector<double> values, double p) {
   if (values.empty()) return std::nullopt;
   std::sort(values.begin(), values.end());
