@@ -44,6 +44,7 @@ struct SanitizeSettings {
   double min_range = 0.0;
   double max_range = 20.0;
   bool remove_duplicates = true;
+  int min_points = 10;
   bool crop = false;
   double crop_min_x = -10.0, crop_min_y = -10.0, crop_min_z = -10.0;
   double crop_max_x = 10.0, crop_max_y = 10.0, crop_max_z = 10.0;
@@ -53,6 +54,7 @@ struct SanitizeSettings {
     v(s.min_range, "min_range", Range{0, 100}, "m", "points nearer to the sensor are dropped");
     v(s.max_range, "max_range", Range{0.01, 1000}, "m", "points farther from the sensor are dropped");
     v(s.remove_duplicates, "remove_duplicates", "drop points at exactly the place of an earlier one");
+    v(s.min_points, "min_points", Range{1, 1000000}, "", "clouds with fewer usable points are refused");
     v(s.crop, "crop", "keep only points inside the crop box");
     const Range box{-1000, 1000};
     v(s.crop_min_x, "crop_min_x", box, "m", "lower corner of the crop box, cloud frame");
@@ -161,11 +163,13 @@ struct RansacSettings {
 
 struct DetectionSettings {
   double threshold = 0.5;
+  double half_density = 5.0;
   int max_per_object = 20;
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
     v(s.threshold, "threshold", Range{0, 1}, "", "lowest score of a detection that is reported");
+    v(s.half_density, "half_density", Range{0.001, 10000}, "votes", "density of the inliers' votes that scores 0.5");
     v(s.max_per_object, "max_per_object", Range{1, 1000}, "", "most hypotheses of one object in one scene");
   }
 };

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/chi_squared.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/chi_squared.cpp"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace sks {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr float smallest_sum = 1e-30f;  // keeps 0 / 0 out; the numerator is 0 then
+
+void chiSquaredBlocksImpl(const float* query, std::size_t bins, const float* table, std::size_t blocks,
+                          float* distances) {
+  const hn::CappedTag<float, block_words> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto tiny = hn::Set(d, smallest_sum);
+  const auto below = hn::Set(d, 0.9995f);  // outweighs the error of the approximate reciprocal, 2^-11 at most
+  for (std::size_t block = 0; block < blocks; ++block) {
+    for (std::size_t part = 0; part < block_words; part += lanes) {
+      const float* column = table + block * bins * block_words + part;
+      auto sum = hn::Zero(d);
+      for (std::size_t bin = 0; bin < bins; ++bin, column += block_words) {
+        const auto a = hn::Set(d, query[bin]), b = hn::LoadU(d, column);
+        const auto difference = hn::Sub(a, b);
+        const auto reciprocal = hn::ApproximateReciprocal(hn::Max(hn::Add(a, b), tiny));
+        sum = hn::MulAdd(hn::Mul(difference, difference), reciprocal, sum);
+      }
+      hn::StoreU(hn::Mul(sum, below), d, distances + block * block_words + part);
+    }
+  }
+}
+
+float chiSquaredFastImpl(const float* a, const float* b, std::size_t size) {
+  const hn::ScalableTag<float> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto tiny = hn::Set(d, smallest_sum);
+  const auto term = [&](auto x, auto y) {
+    const auto difference = hn::Sub(x, y);
+    return hn::Div(hn::Mul(difference, difference), hn::Max(hn::Add(x, y), tiny));
+  };
+  auto sum = hn::Zero(d);
+  std::size_t i = 0;
+  for (; i + lanes <= size; i += lanes) sum = hn::Add(sum, term(hn::LoadU(d, a + i), hn::LoadU(d, b + i)));
+  float total = hn::GetLane(hn::SumOfLanes(d, sum));
+  for (; i < size; ++i) {
+    const float difference = a[i] - b[i], both = a[i] + b[i];
+    if (both > 0) total += difference * difference / both;
+  }
+  return total;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sks
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sks {
+
+HWY_EXPORT(chiSquaredBlocksImpl);
+HWY_EXPORT(chiSquaredFastImpl);
+
+void chiSquaredBlocks(const float* query, std::size_t bins, const float* table, std::size_t blocks, float* distances) {
+  HWY_DYNAMIC_DISPATCH(chiSquaredBlocksImpl)(query, bins, table, blocks, distances);
+}
+
+float chiSquaredFast(const float* a, const float* b, std::size_t size) {
+  return HWY_DYNAMIC_DISPATCH(chiSquaredFastImpl)(a, b, size);
+}
+
+}  // namespace sks
+#endif

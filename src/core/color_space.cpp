@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/color_space.hpp"
+
+#include <cmath>
+
+namespace sks {
+namespace {
+
+std::array<float, 256> linearTable() {
+  std::array<float, 256> table{};
+  for (int i = 0; i < 256; ++i) {
+    const double value = i / 255.0;
+    table[i] = float(value > 0.04045 ? std::pow((value + 0.055) / 1.055, 2.4) : value / 12.92);
+  }
+  return table;
+}
+
+/// The cube root of CIELab with its linear part near 0.
+float labCurve(float t) {
+  return t > 0.008856f ? std::cbrt(t) : 7.787f * t + 16.0f / 116.0f;
+}
+
+}  // namespace
+
+std::array<float, 3> toScaledLab(const Rgb& color) {
+  static const std::array<float, 256> linear = linearTable();
+  const float r = linear[color.r], g = linear[color.g], b = linear[color.b];
+  const float fx = labCurve((0.412453f * r + 0.357580f * g + 0.180423f * b) / 0.95047f);
+  const float fy = labCurve(0.212671f * r + 0.715160f * g + 0.072169f * b);
+  const float fz = labCurve((0.019334f * r + 0.119193f * g + 0.950227f * b) / 1.08883f);
+  return {(116.0f * fy - 16.0f) / 100.0f, 500.0f * (fx - fy) / 120.0f, 200.0f * (fy - fz) / 120.0f};
+}
+
+}  // namespace sks

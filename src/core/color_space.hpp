@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+
+#include <sks_detector/cloud.hpp>
+
+namespace sks {
+
+/// sRGB (D65) to CIELab, scaled to L / 100, a / 120, b / 120 as CSHOT compares colours.
+std::array<float, 3> toScaledLab(const Rgb& color);
+
+}  // namespace sks

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/descriptors.hpp>
+
+#include <algorithm>
+#include <utility>
+
+#include <sks_detector/error.hpp>
+
+#include "core/local_reference_frame.hpp"
+#include "core/shot.hpp"
+
+namespace sks {
+namespace {
+
+struct Workspace {
+  Neighborhood neighborhood;
+  ShotSupport support;
+};
+
+bool describe(const Surface& surface, const Eigen::Vector3f& keypoint, DescriptorType type,
+              const DescriptorSettings& settings, Workspace& work, Eigen::Matrix3f& frame, float* histogram) {
+  const float radius = float(settings.radius);
+  work.neighborhood.gather(surface, keypoint, radius);
+  if (work.neighborhood.size < std::size_t(settings.min_neighbors)) return false;
+  if (!localReferenceFrame(work.neighborhood, radius, frame)) return false;
+  work.support.locate(work.neighborhood, frame, radius);
+  addShapeHistogram(work.neighborhood, work.support, histogram);
+  if (type == DescriptorType::cshot) {
+    addColorHistogram(surface, work.neighborhood, work.support, radius, histogram + shot_size);
+  }
+  return normalize(histogram, descriptorSize(type));
+}
+
+}  // namespace
+
+std::size_t descriptorSize(DescriptorType type) {
+  switch (type) {
+    case DescriptorType::shot:
+      return shot_size;
+    case DescriptorType::cshot:
+      return cshot_size;
+    case DescriptorType::automatic:
+      break;
+  }
+  return 0;
+}
+
+DescriptorMatrix::DescriptorMatrix(std::vector<float> values, std::size_t cols) : cols_(cols) {
+  if (cols == 0 || values.size() % cols != 0) {
+    throw Error(ErrorCode::bad_data, "a descriptor matrix of " + std::to_string(values.size()) +
+                                         " values has no whole rows of " + std::to_string(cols));
+  }
+  const auto owned = std::make_shared<const std::vector<float>>(std::move(values));
+  data_ = owned->data();
+  rows_ = owned->size() / cols;
+  owner_ = owned;
+}
+
+DescriptorMatrix::DescriptorMatrix(const float* data, std::size_t rows, std::size_t cols,
+                                   std::shared_ptr<const void> owner)
+    : data_(data), rows_(rows), cols_(cols), owner_(std::move(owner)) {}
+
+Descriptors computeDescriptors(const Surface& surface, const Keypoints& keypoints, DescriptorType type,
+                               const DescriptorSettings& settings, int threads) {
+  if (type == DescriptorType::cshot && !surface.hasColor()) {
+    throw Error(ErrorCode::incompatible,
+                "CSHOT describes colour, but the cloud has none: use a coloured cloud, or SHOT (descriptor.type=shot)");
+  }
+  const std::size_t n = keypoints.size(), cols = descriptorSize(type);
+  std::vector<float> values(n * cols, 0.0f);
+  std::vector<Eigen::Matrix3f> frames(n);
+  std::vector<char> valid(n, 0);
+#pragma omp parallel num_threads(threads)
+  {
+    Workspace work;
+#pragma omp for schedule(dynamic, 16)
+    for (std::size_t i = 0; i < n; ++i) {
+      valid[i] = describe(surface, keypoints.positions[i], type, settings, work, frames[i], &values[i * cols]);
+    }
+  }
+
+  Descriptors descriptors;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!valid[i]) continue;
+    const std::size_t row = descriptors.keypoints.size();
+    if (row != i) std::copy_n(&values[i * cols], cols, &values[row * cols]);
+    descriptors.keypoints.push_back(std::uint32_t(i));
+    descriptors.frames.push_back(frames[i]);
+  }
+  values.resize(descriptors.keypoints.size() * cols);
+  descriptors.values = DescriptorMatrix(std::move(values), cols);
+  return descriptors;
+}
+
+}  // namespace sks

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/keypoints.hpp>
+
+#include "core/voxels.hpp"
+
+namespace sks {
+
+Keypoints gridKeypoints(const Surface& surface, double grid_size) {
+  Keypoints keypoints;
+  keypoints.positions = groupByVoxel(surface.positions(), grid_size).centroids;
+  return keypoints;
+}
+
+Keypoints detectKeypoints(const Surface& surface, const KeypointSettings& settings, int threads) {
+  return settings.detector == KeypointDetector::iss ? issKeypoints(surface, settings, threads)
+                                                    : gridKeypoints(surface, settings.grid_size);
+}
+
+}  // namespace sks

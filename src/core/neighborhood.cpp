@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/neighborhood.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/neighborhood.cpp"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace sks {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Appends those points of a run that lie within the radius; returns the new count.
+std::size_t gatherRun(const Surface& surface, const float* center, float radius, PointGrid::Run run, Neighborhood& out,
+                      std::size_t count) {
+  const hn::ScalableTag<float> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  const auto cx = hn::Set(d, center[0]), cy = hn::Set(d, center[1]), cz = hn::Set(d, center[2]);
+  const auto limit = hn::Set(d, radius * radius);
+  for (std::size_t i = run.begin; i < run.end; i += hn::Lanes(d)) {
+    const auto x = hn::Sub(hn::LoadU(d, surface.x.data() + i), cx);
+    const auto y = hn::Sub(hn::LoadU(d, surface.y.data() + i), cy);
+    const auto z = hn::Sub(hn::LoadU(d, surface.z.data() + i), cz);
+    const auto squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+    const auto inside = hn::And(hn::Le(squared, limit), hn::FirstN(d, run.end - i));
+    hn::CompressStore(x, inside, d, out.x.data() + count);
+    hn::CompressStore(y, inside, d, out.y.data() + count);
+    hn::CompressStore(z, inside, d, out.z.data() + count);
+    hn::CompressStore(hn::Sqrt(squared), inside, d, out.distance.data() + count);
+    hn::CompressStore(hn::LoadU(d, surface.nx.data() + i), inside, d, out.nx.data() + count);
+    hn::CompressStore(hn::LoadU(d, surface.ny.data() + i), inside, d, out.ny.data() + count);
+    hn::CompressStore(hn::LoadU(d, surface.nz.data() + i), inside, d, out.nz.data() + count);
+    count +=
+        hn::CompressStore(hn::Iota(du, std::uint32_t(i)), hn::RebindMask(du, inside), du, out.index.data() + count);
+  }
+  return count;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sks
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sks {
+
+HWY_EXPORT(gatherRun);
+
+void Neighborhood::gather(const Surface& surface, const Eigen::Vector3f& center, float radius) {
+  surface.findRuns(center, radius, runs);
+  std::size_t capacity = PointGrid::simd_padding;  // a compressing store may write a whole vector
+  for (const auto& run : runs) capacity += run.end - run.begin;
+  if (index.size() < capacity) {
+    for (auto* array : {&x, &y, &z, &distance, &nx, &ny, &nz}) array->resize(2 * capacity);
+    index.resize(2 * capacity);
+  }
+  size = 0;
+  for (const auto& run : runs) size = HWY_DYNAMIC_DISPATCH(gatherRun)(surface, center.data(), radius, run, *this, size);
+}
+
+}  // namespace sks
+#endif

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/plane_fit.hpp"
+
+#include <limits>
+
+#include <Eigen/Eigenvalues>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/plane_fit.cpp"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace sks {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Sums over the neighbours of a centre, relative to it: count, x, y, z, xx, xy, xz, yy, yz, zz.
+void sumMoments(const PointGrid& grid, const float* center, float radius, const PointGrid::Run* runs,
+                std::size_t run_count, double* moments) {
+  const hn::ScalableTag<float> d;
+  const auto cx = hn::Set(d, center[0]), cy = hn::Set(d, center[1]), cz = hn::Set(d, center[2]);
+  const auto limit = hn::Set(d, radius * radius), one = hn::Set(d, 1.0f), zero = hn::Zero(d);
+  auto n = zero, sx = zero, sy = zero, sz = zero;
+  auto xx = zero, xy = zero, xz = zero, yy = zero, yz = zero, zz = zero;
+  for (std::size_t r = 0; r < run_count; ++r) {
+    for (std::size_t i = runs[r].begin; i < runs[r].end; i += hn::Lanes(d)) {
+      auto x = hn::Sub(hn::LoadU(d, &grid.x[i]), cx);
+      auto y = hn::Sub(hn::LoadU(d, &grid.y[i]), cy);
+      auto z = hn::Sub(hn::LoadU(d, &grid.z[i]), cz);
+      const auto squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+      const auto inside = hn::And(hn::Le(squared, limit), hn::FirstN(d, runs[r].end - i));
+      x = hn::IfThenElseZero(inside, x);
+      y = hn::IfThenElseZero(inside, y);
+      z = hn::IfThenElseZero(inside, z);
+      n = hn::Add(n, hn::IfThenElseZero(inside, one));
+      sx = hn::Add(sx, x);
+      sy = hn::Add(sy, y);
+      sz = hn::Add(sz, z);
+      xx = hn::MulAdd(x, x, xx);
+      xy = hn::MulAdd(x, y, xy);
+      xz = hn::MulAdd(x, z, xz);
+      yy = hn::MulAdd(y, y, yy);
+      yz = hn::MulAdd(y, z, yz);
+      zz = hn::MulAdd(z, z, zz);
+    }
+  }
+  const auto sum = [&](auto v) { return double(hn::GetLane(hn::SumOfLanes(d, v))); };
+  const double all[] = {sum(n), sum(sx), sum(sy), sum(sz), sum(xx), sum(xy), sum(xz), sum(yy), sum(yz), sum(zz)};
+  std::copy(std::begin(all), std::end(all), moments);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sks
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sks {
+
+HWY_EXPORT(sumMoments);
+
+Eigen::Vector3f smallestEigenvector(const Eigen::Matrix3d& matrix) {
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
+  solver.computeDirect(matrix);
+  return solver.eigenvectors().col(0).cast<float>().normalized();
+}
+
+void fitPlanes(const PointGrid& grid, const Eigen::Vector3f* centers, std::size_t count, float radius,
+               int min_neighbors, Eigen::Vector3f* normals) {
+  std::vector<PointGrid::Run> runs;
+  for (std::size_t i = 0; i < count; ++i) {
+    grid.findRuns(centers[i], radius, runs);
+    double m[10];
+    HWY_DYNAMIC_DISPATCH(sumMoments)(grid, centers[i].data(), radius, runs.data(), runs.size(), m);
+    if (m[0] < min_neighbors) {
+      normals[i].setConstant(std::numeric_limits<float>::quiet_NaN());
+      continue;
+    }
+    const Eigen::Vector3d mean = Eigen::Vector3d(m[1], m[2], m[3]) / m[0];
+    Eigen::Matrix3d scatter;
+    scatter << m[4], m[5], m[6], m[5], m[7], m[8], m[6], m[8], m[9];
+    scatter = scatter / m[0] - mean * mean.transpose();
+    normals[i] = smallestEigenvector(scatter);
+  }
+}
+
+}  // namespace sks
+#endif

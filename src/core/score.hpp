@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sks_detector/hypothesis.hpp>
+#include <sks_detector/settings.hpp>
+
+namespace sks {
+
+/// Confidence in [0, 1) of a hypothesis by itself, independent of whatever else is in the scene: grows with the density
+/// of its inliers' votes and is 0.5 at `detection.half_density`.
+double score(const Hypothesis& hypothesis, const DetectionSettings& settings);
+
+}  // namespace sks

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/neighborhood.hpp"
+#include "core/shot_support.hpp"
+
+namespace sks {
+
+/// Adds SHOT's 32 histograms of the angle between the neighbours' normals and the z axis to `histogram` (352 bins).
+void addShapeHistogram(const Neighborhood& neighborhood, const ShotSupport& support, float* histogram);
+
+/// Adds CSHOT's 32 histograms of the CIELab distance to the keypoint's colour to `histogram` (992 bins). The colour of
+/// a keypoint, a centroid, is the mean of the neighbours within a fifth of the radius, or that of the nearest.
+void addColorHistogram(const Surface& surface, const Neighborhood& neighborhood, const ShotSupport& support,
+                       float radius, float* histogram);
+
+/// Scales to unit L2 norm; false if all bins are 0.
+bool normalize(float* histogram, std::size_t size);
+
+}  // namespace sks

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/surface.hpp>
+
+#include <algorithm>
+
+#include "core/color_space.hpp"
+#include "core/voxels.hpp"
+
+namespace sks {
+
+Surface makeSurface(const Cloud& cloud, double cell) {
+  Surface surface(cloud.points, cell);
+  surface.sensor_origin = cloud.sensor_origin;
+  if (cloud.hasColor()) {
+    surface.color.resize(surface.size());
+    for (std::size_t i = 0; i < surface.size(); ++i) surface.color[i] = toScaledLab(cloud.colors[surface.source[i]]);
+  }
+  return surface;
+}
+
+namespace {
+
+/// Of the points of each occupied cube the index of the one nearest to their centroid.
+std::vector<std::uint32_t> nearestToCentroids(const std::vector<Eigen::Vector3f>& points, double edge) {
+  const VoxelGroups voxels = groupByVoxel(points, edge);
+  std::vector<std::uint32_t> nearest;
+  for (std::size_t v = 0; v < voxels.centroids.size(); ++v) {
+    const auto distance = [&](std::uint32_t i) { return (points[i] - voxels.centroids[v]).squaredNorm(); };
+    nearest.push_back(*std::min_element(voxels.points.begin() + voxels.begin[v],
+                                        voxels.points.begin() + voxels.begin[v + 1],
+                                        [&](std::uint32_t a, std::uint32_t b) { return distance(a) < distance(b); }));
+  }
+  return nearest;
+}
+
+}  // namespace
+
+Cloud thin(const Cloud& cloud, double edge) {
+  Cloud thinned;
+  thinned.sensor_origin = cloud.sensor_origin;
+  for (const std::uint32_t i : nearestToCentroids(cloud.points, edge)) {
+    thinned.points.push_back(cloud.points[i]);
+    if (cloud.hasColor()) thinned.colors.push_back(cloud.colors[i]);
+  }
+  thinned.width = std::uint32_t(thinned.size());
+  return thinned;
+}
+
+std::vector<std::uint32_t> thinnedIndices(const PointGrid& points, double edge) {
+  return nearestToCentroids(points.positions(), edge);
+}
+
+}  // namespace sks
