@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# shellcheck shell=bash disable=SC2034
+#
+# Sourced by the other scripts. Sets
+#   root       this checkout
+#   workspace  catkin workspace that they build in: $SKS_WORKSPACE, by default build/catkin in the checkout
+#   SKS_DATA   (exported) folder of the recorded data sets, by default ../shared/data beside the checkout
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
+workspace=${SKS_WORKSPACE:-$root/build/catkin}
+export SKS_DATA=${SKS_DATA:-$(dirname "$root")/shared/data}
+
+# catkin and its modules belong to the system's python3; another one may come first in PATH.
+export PATH=/usr/bin:$PATH
+
+# ROS Noetic on Ubuntu 20.04 lives in a folder of its own; Debian's ROS needs no set-up.
+if [[ -f /opt/ros/noetic/setup.bash ]]; then
+  set +u
+  # shellcheck disable=SC1091
+  source /opt/ros/noetic/setup.bash
+  set -u
+fi
