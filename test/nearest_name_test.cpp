@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/nearest_name.hpp"
+
+#include <gtest/gtest.h>
+
+namespace sks {
+namespace {
+
+TEST(NearestName, IsTheOneWithTheFewestEdits) {
+  EXPECT_EQ(nearestName("scene", {"name", "scenes", "tests"}), "scenes");
+  EXPECT_EQ(nearestName("clodu", {"object", "kind", "cloud"}), "cloud");
+  EXPECT_EQ(nearestName("x", {"a", "b"}), "a");
+  EXPECT_EQ(nearestName("x", {}), "");
+}
+
+}  // namespace
+}  // namespace sks
