@@ -13,25 +13,46 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float smallest_sum = 1e-30f;  // keeps 0 / 0 out; the numerator is 0 then
+constexpr float below_truth = 0.9995f;  // outweighs the error of the approximate reciprocal, 2^-11 at most
+
+/// (a-b)^2 / (a+b) added to `sum`, with the approximate reciprocal.
+template <class V>
+HWY_INLINE V addTerm(V a, V b, V tiny, V sum) {
+  const auto difference = hn::Sub(a, b);
+  const auto reciprocal = hn::ApproximateReciprocal(hn::Max(hn::Add(a, b), tiny));
+  return hn::MulAdd(hn::Mul(difference, difference), reciprocal, sum);
+}
 
 void chiSquaredBlocksImpl(const float* query, std::size_t bins, const float* table, std::size_t blocks,
                           float* distances) {
   const hn::CappedTag<float, block_words> d;
   const std::size_t lanes = hn::Lanes(d);
   const auto tiny = hn::Set(d, smallest_sum);
-  const auto below = hn::Set(d, 0.9995f);  // outweighs the error of the approximate reciprocal, 2^-11 at most
+  const auto below = hn::Set(d, below_truth);
   for (std::size_t block = 0; block < blocks; ++block) {
     for (std::size_t part = 0; part < block_words; part += lanes) {
       const float* column = table + block * bins * block_words + part;
       auto sum = hn::Zero(d);
       for (std::size_t bin = 0; bin < bins; ++bin, column += block_words) {
-        const auto a = hn::Set(d, query[bin]), b = hn::LoadU(d, column);
-        const auto difference = hn::Sub(a, b);
-        const auto reciprocal = hn::ApproximateReciprocal(hn::Max(hn::Add(a, b), tiny));
-        sum = hn::MulAdd(hn::Mul(difference, difference), reciprocal, sum);
+        sum = addTerm(hn::Set(d, query[bin]), hn::LoadU(d, column), tiny, sum);
       }
       hn::StoreU(hn::Mul(sum, below), d, distances + block * block_words + part);
     }
+  }
+}
+
+void chiSquaredRowsImpl(const float* query, std::size_t bins, const float* table, const std::uint32_t* rows,
+                        std::size_t count, float* distances) {
+  const hn::CappedTag<float, block_words> d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto tiny = hn::Set(d, smallest_sum);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* row = table + rows[i] * bins;
+    auto sum = hn::Zero(d);
+    for (std::size_t bin = 0; bin < bins; bin += lanes) {
+      sum = addTerm(hn::LoadU(d, query + bin), hn::LoadU(d, row + bin), tiny, sum);
+    }
+    distances[i] = below_truth * hn::GetLane(hn::SumOfLanes(d, sum));
   }
 }
 
@@ -62,10 +83,16 @@ HWY_AFTER_NAMESPACE();
 namespace sks {
 
 HWY_EXPORT(chiSquaredBlocksImpl);
+HWY_EXPORT(chiSquaredRowsImpl);
 HWY_EXPORT(chiSquaredFastImpl);
 
 void chiSquaredBlocks(const float* query, std::size_t bins, const float* table, std::size_t blocks, float* distances) {
   HWY_DYNAMIC_DISPATCH(chiSquaredBlocksImpl)(query, bins, table, blocks, distances);
+}
+
+void chiSquaredRows(const float* query, std::size_t bins, const float* table, const std::uint32_t* rows,
+                    std::size_t count, float* distances) {
+  HWY_DYNAMIC_DISPATCH(chiSquaredRowsImpl)(query, bins, table, rows, count, distances);
 }
 
 float chiSquaredFast(const float* a, const float* b, std::size_t size) {
