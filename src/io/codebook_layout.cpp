@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/codebook_layout.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include <sks_detector/codebook_file.hpp>
+#include <sks_detector/error.hpp>
+
+#include "io/crc32c.hpp"
+
+namespace sks {
+namespace {
+
+[[noreturn]] void fail(const std::string& message) {
+  throw Error(ErrorCode::bad_file, message);
+}
+
+bool inside(std::uint64_t offset, std::uint64_t size, std::uint64_t file_size) {
+  return offset >= sizeof(CodebookHeader) && offset % codebook_alignment == 0 && offset <= file_size &&
+         size <= file_size - offset;
+}
+
+std::string viewFault(const Codebook& codebook, const TrainingView& view) {
+  if (view.object >= codebook.objects.size()) return "belongs to an object that is not there";
+  if (view.surface_points.size() != view.surface_normals.size()) return "has not one normal for each surface point";
+  if (!view.sensor_origin.allFinite()) return "has a sensor origin that is not finite";
+  if (!view.box_min.allFinite() || !view.box_max.allFinite()) return "has a box that is not finite";
+  if ((view.box_min.array() > view.box_max.array()).any()) return "has a box of negative size";
+  const auto finite = [](const Eigen::Vector3f& v) { return v.allFinite(); };
+  if (!std::all_of(view.surface_points.begin(), view.surface_points.end(), finite) ||
+      !std::all_of(view.surface_normals.begin(), view.surface_normals.end(), finite)) {
+    return "has a surface that is not finite";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::uint32_t CodebookHeader::ownChecksum() const {
+  return crc32c(this, offsetof(CodebookHeader, header_checksum));
+}
+
+CodebookHeader checkCodebookHeader(const std::uint8_t* file, std::size_t size) {
+  CodebookHeader header;
+  const CodebookHeader model;
+  if (size == 0) fail("it is empty; train it again");
+  if (std::memcmp(file, model.magic, std::min(size, sizeof(model.magic))) != 0) fail("it is no codebook");
+  if (size < sizeof(header)) fail("it is truncated: " + std::to_string(size) + " bytes; copy it again");
+  std::memcpy(&header, file, sizeof(header));
+  if (header.ownChecksum() != header.header_checksum) fail("its header is damaged; copy or train it again");
+  if (header.version > codebook_file_version) {
+    fail("it was written by a newer version (file format " + std::to_string(header.version) +
+         ", this build reads up to " + std::to_string(codebook_file_version) + "): update sks_detector");
+  }
+  if (size < header.file_size) {
+    fail("it is truncated: " + std::to_string(size) + " of " + std::to_string(header.file_size) +
+         " bytes; copy it again");
+  }
+  const bool fits = header.version > 0 && header.header_size == sizeof(header) && size == header.file_size &&
+                    header.metadata_size <= largest_metadata &&
+                    inside(header.metadata_offset, header.metadata_size, size) &&
+                    inside(header.descriptors_offset, header.descriptors_size, size);
+  if (!fits || crc32c(file + sizeof(header), size - sizeof(header)) != header.payload_checksum) {
+    fail("it is damaged (its checksum does not match); copy or train it again");
+  }
+  return header;
+}
+
+std::string codebookFault(const Codebook& codebook) {
+  const std::size_t columns = descriptorSize(codebook.descriptor_type);
+  const DescriptorMatrix& descriptors = codebook.descriptors;
+  if (columns == 0) return "its descriptor type is not decided";
+  if (descriptors.rows() != codebook.words.size() || (descriptors.rows() > 0 && descriptors.cols() != columns)) {
+    return "its " + std::to_string(codebook.words.size()) + " codewords have " + std::to_string(descriptors.rows()) +
+           " descriptors of " + std::to_string(descriptors.cols()) + " bins";
+  }
+  for (const TrainingView& view : codebook.views) {
+    const std::string fault = viewFault(codebook, view);
+    if (!fault.empty()) return "its training cloud '" + view.source + "' " + fault;
+  }
+  for (std::size_t i = 0; i < codebook.words.size(); ++i) {
+    const Codeword& word = codebook.words[i];
+    const std::string name = "its codeword " + std::to_string(i);
+    if (word.view >= codebook.views.size()) return name + " belongs to a training cloud that is not there";
+    if (!word.position.allFinite() || !word.frame.allFinite()) return name + " is not finite";
+  }
+  return "";
+}
+
+}  // namespace sks

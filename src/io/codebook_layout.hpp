@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The header of a codebook file and where its sections lie; see docs/codebook_file.md.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include <sks_detector/codebook.hpp>
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "codebook files are used as they lie in memory");
+
+namespace sks {
+
+/// Start of every section, and size of the header.
+constexpr std::uint64_t codebook_alignment = 64;
+
+/// FlatBuffers' own limit, 2 GiB less one byte.
+constexpr std::uint64_t largest_metadata = 2147483646;
+
+/// The first 64 bytes as they lie in the file. All versions of the format share them.
+struct CodebookHeader {
+  char magic[8] = {'S', 'K', 'S', 'C', 'O', 'D', 'E', 'B'};
+  std::uint32_t version = 0;
+  std::uint32_t header_size = 64;
+  std::uint64_t file_size = 0;
+  std::uint64_t metadata_offset = 0;
+  std::uint64_t metadata_size = 0;
+  std::uint64_t descriptors_offset = 0;
+  std::uint64_t descriptors_size = 0;  ///< bytes
+  std::uint32_t payload_checksum = 0;  ///< CRC-32C of all bytes after the header
+  std::uint32_t header_checksum = 0;   ///< CRC-32C of the 60 bytes before it
+
+  std::uint32_t ownChecksum() const;
+};
+static_assert(sizeof(CodebookHeader) == 64, "the header must have no padding");
+
+/// Checks magic, checksums, version and the places of the sections, in the order that gives the best message.
+/// @throws Error(bad_file) saying what is wrong and what helps, without the file's name
+CodebookHeader checkCodebookHeader(const std::uint8_t* file, std::size_t size);
+
+/// Why the parts of a codebook do not fit together (an index or count out of range, a number that is not finite);
+/// empty if they do. The descriptors themselves are not looked at.
+std::string codebookFault(const Codebook& codebook);
+
+}  // namespace sks

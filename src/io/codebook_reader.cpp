@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vector>
+
+#include <sks_detector/codebook_file.hpp>
+#include <sks_detector/error.hpp>
+#include <sks_detector/settings_file.hpp>
+
+#include "codebook_generated.h"
+#include "core/value_text.hpp"
+#include "io/codebook_layout.hpp"
+#include "io/mapped_file.hpp"
+
+namespace sks {
+namespace {
+
+[[noreturn]] void fail(const std::string& message) {
+  throw Error(ErrorCode::bad_file, message);
+}
+
+Eigen::Vector3f fromFormat(const format::Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+std::vector<Eigen::Vector3f> fromFormat(const flatbuffers::Vector<const format::Vec3*>& vectors) {
+  std::vector<Eigen::Vector3f> result;
+  result.reserve(vectors.size());
+  for (const format::Vec3* v : vectors) result.push_back(fromFormat(*v));
+  return result;
+}
+
+TrainingView fromFormat(const format::View& from) {
+  TrainingView view;
+  view.object = from.object();
+  view.source = from.source()->str();
+  if (from.kind() > format::ViewKind_MAX) fail("its training cloud '" + view.source + "' is of an unknown kind");
+  view.kind = ViewKind(from.kind());
+  view.sensor_origin = fromFormat(*from.sensor_origin());
+  view.box_min = fromFormat(*from.box_min());
+  view.box_max = fromFormat(*from.box_max());
+  view.surface_points = fromFormat(*from.surface_points());
+  view.surface_normals = fromFormat(*from.surface_normals());
+  return view;
+}
+
+Codeword fromFormat(const format::Word& from) {
+  Codeword word;
+  word.view = from.view();
+  word.position = fromFormat(from.position());
+  word.frame.row(0) = fromFormat(from.x_axis());
+  word.frame.row(1) = fromFormat(from.y_axis());
+  word.frame.row(2) = fromFormat(from.z_axis());
+  return word;
+}
+
+Settings readSettings(const std::string& yaml) {
+  Settings settings;
+  try {
+    parseSettings(yaml, "settings", settings);
+    validate(settings);
+  } catch (const Error& error) {
+    fail(std::string("it was trained with settings that this version does not know: ") + error.what() +
+         "; train it again");
+  }
+  return settings;
+}
+
+/// The descriptor section, in place.
+DescriptorMatrix descriptorsOf(const std::shared_ptr<const MappedFile>& file, const CodebookHeader& header,
+                               std::size_t columns) {
+  const std::uint64_t row = columns * sizeof(float);
+  if (header.descriptors_size % row != 0) fail("its descriptors have no whole rows; train it again");
+  const auto* data = reinterpret_cast<const float*>(file->data() + header.descriptors_offset);
+  return {data, std::size_t(header.descriptors_size / row), columns, file};
+}
+
+std::shared_ptr<const Codebook> read(const std::shared_ptr<const MappedFile>& file) {
+  const CodebookHeader header = checkCodebookHeader(file->data(), file->size());
+  flatbuffers::Verifier verifier(file->data() + header.metadata_offset, header.metadata_size);
+  if (!format::VerifyCodebookBuffer(verifier)) fail("its metadata is damaged; train it again");
+  const format::Codebook& from = *format::GetCodebook(file->data() + header.metadata_offset);
+
+  const auto codebook = std::make_shared<Codebook>();
+  codebook->name = from.name()->str();
+  const std::string type = from.descriptor_type()->str();
+  if (!fromText(type, codebook->descriptor_type) ||
+      descriptorSize(codebook->descriptor_type) != from.descriptor_size()) {
+    fail("it holds descriptors of the unknown type '" + type + "' with " + std::to_string(from.descriptor_size()) +
+         " bins: update sks_detector");
+  }
+  if (from.descriptor_size() == 0) fail("its descriptor type is not decided; train it again");
+  codebook->settings = readSettings(from.settings()->str());
+  for (const auto* object : *from.objects()) codebook->objects.push_back(object->str());
+  for (const auto* view : *from.views()) codebook->views.push_back(fromFormat(*view));
+  codebook->words.reserve(from.words()->size());
+  for (const auto* word : *from.words()) codebook->words.push_back(fromFormat(*word));
+  codebook->descriptors = descriptorsOf(file, header, from.descriptor_size());
+  codebook->checksum = header.payload_checksum;
+  const std::string fault = codebookFault(*codebook);
+  if (!fault.empty()) fail(fault + "; train it again");
+  return codebook;
+}
+
+}  // namespace
+
+std::shared_ptr<const Codebook> readCodebook(const std::string& path) {
+  try {
+    return read(std::make_shared<const MappedFile>(path));
+  } catch (const Error& error) {
+    throw Error(error.code(), "cannot read codebook '" + path + "': " + error.what());
+  }
+}
+
+}  // namespace sks

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <vector>
+
+#include <sks_detector/codebook_file.hpp>
+#include <sks_detector/error.hpp>
+#include <sks_detector/settings_file.hpp>
+
+#include "codebook_generated.h"
+#include "core/value_text.hpp"
+#include "io/atomic_file.hpp"
+#include "io/codebook_layout.hpp"
+#include "io/crc32c.hpp"
+
+namespace sks {
+namespace {
+
+using flatbuffers::Offset;
+
+format::Vec3 toFormat(const Eigen::Vector3f& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+Offset<flatbuffers::Vector<const format::Vec3*>> toFormat(flatbuffers::FlatBufferBuilder& builder,
+                                                          const std::vector<Eigen::Vector3f>& vectors) {
+  std::vector<format::Vec3> structs;
+  for (const Eigen::Vector3f& v : vectors) structs.push_back(toFormat(v));
+  return builder.CreateVectorOfStructs(structs);
+}
+
+Offset<format::View> toFormat(flatbuffers::FlatBufferBuilder& builder, const TrainingView& view) {
+  const auto source = builder.CreateString(view.source);
+  const auto points = toFormat(builder, view.surface_points);
+  const auto normals = toFormat(builder, view.surface_normals);
+  const format::Vec3 origin = toFormat(view.sensor_origin), low = toFormat(view.box_min), high = toFormat(view.box_max);
+  return format::CreateView(builder, view.object, source, format::ViewKind(view.kind), &origin, &low, &high, points,
+                            normals);
+}
+
+/// What the metadata will take at most, known before FlatBuffers' own limit ends the process.
+std::uint64_t metadataBound(const Codebook& codebook) {
+  std::uint64_t bytes = 1 << 20;
+  bytes += codebook.words.size() * sizeof(format::Word);
+  for (const std::string& object : codebook.objects) bytes += object.size() + 32;
+  for (const TrainingView& view : codebook.views) {
+    bytes += 256 + view.source.size() + 2 * view.surface_points.size() * sizeof(format::Vec3);
+  }
+  return bytes;
+}
+
+void build(flatbuffers::FlatBufferBuilder& builder, const Codebook& codebook) {
+  const auto name = builder.CreateString(codebook.name);
+  const auto type = builder.CreateString(toText(codebook.descriptor_type));
+  const auto settings = builder.CreateString(settingsToYaml(codebook.settings));
+  const auto objects = builder.CreateVectorOfStrings(codebook.objects);
+  std::vector<Offset<format::View>> views;
+  for (const TrainingView& view : codebook.views) views.push_back(toFormat(builder, view));
+  std::vector<format::Word> words;
+  words.reserve(codebook.words.size());
+  for (const Codeword& word : codebook.words) {
+    words.emplace_back(word.view, toFormat(word.position), toFormat(word.frame.row(0)), toFormat(word.frame.row(1)),
+                       toFormat(word.frame.row(2)));
+  }
+  const auto view_vector = builder.CreateVector(views);
+  const auto word_vector = builder.CreateVectorOfStructs(words);
+  const auto columns = std::uint32_t(descriptorSize(codebook.descriptor_type));
+  format::FinishCodebookBuffer(
+      builder, format::CreateCodebook(builder, name, type, columns, settings, objects, view_vector, word_vector));
+}
+
+}  // namespace
+
+std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook) {
+  const auto fail = [&](const std::string& reason) {
+    throw Error(ErrorCode::bad_file, "cannot write codebook '" + path + "': " + reason);
+  };
+  const std::string fault = codebookFault(codebook);
+  if (!fault.empty()) fail(fault);
+  if (metadataBound(codebook) > largest_metadata) {
+    fail(
+        "the surfaces and codewords of its training clouds exceed 2 GiB; raise training.surface_resolution or "
+        "keypoints.grid_size");
+  }
+  flatbuffers::FlatBufferBuilder builder(1 << 20);
+  build(builder, codebook);
+
+  const DescriptorMatrix& descriptors = codebook.descriptors;
+  CodebookHeader header;
+  header.version = codebook_file_version;
+  header.metadata_offset = sizeof(header);
+  header.metadata_size = builder.GetSize();
+  const std::uint64_t metadata_end = header.metadata_offset + header.metadata_size;
+  const std::vector<char> padding((codebook_alignment - metadata_end % codebook_alignment) % codebook_alignment, 0);
+  header.descriptors_offset = metadata_end + padding.size();
+  header.descriptors_size = std::uint64_t(descriptors.rows()) * descriptors.cols() * sizeof(float);
+  header.file_size = header.descriptors_offset + header.descriptors_size;
+  header.payload_checksum = crc32c(builder.GetBufferPointer(), header.metadata_size);
+  header.payload_checksum = crc32c(padding.data(), padding.size(), header.payload_checksum);
+  header.payload_checksum = crc32c(descriptors.data(), header.descriptors_size, header.payload_checksum);
+  header.header_checksum = header.ownChecksum();
+
+  AtomicFile file(path);
+  file.write(&header, sizeof(header));
+  file.write(builder.GetBufferPointer(), header.metadata_size);
+  file.write(padding.data(), padding.size());
+  file.write(descriptors.data(), header.descriptors_size);
+  file.commit();
+  return header.payload_checksum;
+}
+
+}  // namespace sks

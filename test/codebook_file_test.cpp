@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/codebook_file.hpp>
+
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include <unistd.h>
+
+#include <gtest/gtest.h>
+
+#include <sks_detector/file.hpp>
+#include <sks_detector/settings_file.hpp>
+
+#include "error_of.hpp"
+#include "io/codebook_layout.hpp"
+#include "io/crc32c.hpp"
+#include "temporary_folder.hpp"
+
+namespace {
+
+using sks::ErrorCode;
+using sks::test::errorOf;
+using sks::test::writeFile;
+
+sks::Codebook makeCodebook(sks::DescriptorType type = sks::DescriptorType::shot) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> number(0, 1);
+  const auto vector = [&] { return Eigen::Vector3f(number(random), number(random), number(random)); };
+  sks::Codebook codebook;
+  codebook.name = "toys";
+  codebook.descriptor_type = codebook.settings.descriptor.type = type;
+  codebook.settings.keypoints.grid_size = 0.03;
+  codebook.objects = {"mario", "frog"};
+  for (std::uint32_t i = 0; i < 3; ++i) {
+    sks::TrainingView view;
+    view.object = i % 2;
+    view.source = "view" + std::to_string(i) + ".pcd";
+    view.kind = i == 2 ? sks::ViewKind::model : sks::ViewKind::view;
+    view.sensor_origin = vector();
+    view.box_min = -vector();
+    view.box_max = vector();
+    for (std::uint32_t k = 0; k < i; ++k) {
+      view.surface_points.push_back(vector());
+      view.surface_normals.push_back(vector().normalized());
+    }
+    codebook.views.push_back(view);
+  }
+  std::vector<float> values;
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    sks::Codeword word;
+    word.view = i;
+    word.position = vector();
+    for (int row = 0; row < 3; ++row) word.frame.row(row) = vector();
+    codebook.words.push_back(word);
+    for (std::size_t bin = 0; bin < sks::descriptorSize(type); ++bin) values.push_back(number(random));
+  }
+  codebook.descriptors = sks::DescriptorMatrix(std::move(values), sks::descriptorSize(type));
+  return codebook;
+}
+
+class CodebookFile : public ::testing::Test {
+protected:
+  /// The reason of the error that reading a file of this content gives.
+  std::string readError(const std::string& content) const {
+    writeFile(path_, content);
+    return readError();
+  }
+  std::string readError() const {
+    const std::string message = errorOf(ErrorCode::bad_file, [&] { sks::readCodebook(path_); });
+    const std::string start = "cannot read codebook '" + path_ + "': ";
+    EXPECT_EQ(message.rfind(start, 0), 0u) << message;
+    return message.substr(std::min(start.size(), message.size()));
+  }
+
+  /// The bytes of a whole codebook.
+  std::string content() const {
+    sks::writeCodebook(path_, makeCodebook());
+    return sks::readTextFile(path_);
+  }
+
+  const sks::test::TemporaryFolder folder_;
+  const std::string path_ = folder_.path("toys.sks");
+};
+
+/// Puts right checksums over a changed file, so that what lies behind them is tested.
+std::string sealed(std::string content) {
+  sks::CodebookHeader header;
+  std::memcpy(&header, content.data(), sizeof(header));
+  header.payload_checksum = sks::crc32c(content.data() + sizeof(header), content.size() - sizeof(header));
+  header.header_checksum = header.ownChecksum();
+  return content.replace(0, sizeof(header), reinterpret_cast<const char*>(&header), sizeof(header));
+}
+
+std::string withHeader(const std::string& content, void (*change)(sks::CodebookHeader&)) {
+  sks::CodebookHeader header;
+  std::memcpy(&header, content.data(), sizeof(header));
+  change(header);
+  return sealed(
+      std::string(content).replace(0, sizeof(header), reinterpret_cast<const char*>(&header), sizeof(header)));
+}
+
+}  // namespace
+
+TEST(Crc32c, KnownValues) {
+  EXPECT_EQ(sks::crc32c("123456789", 9), 0xe3069283u);
+  EXPECT_EQ(sks::crc32c(std::string(32, '\0').data(), 32), 0x8a9136aau);  // RFC 3720, B.4
+  EXPECT_EQ(sks::crc32c(std::string(32, '\xff').data(), 32), 0x62a8ab43u);
+  EXPECT_EQ(sks::crc32c("", 0), 0u);
+  EXPECT_EQ(sks::crc32c("6789", 4, sks::crc32c("12345", 5)), 0xe3069283u);
+}
+
+TEST_F(CodebookFile, RoundTripKeepsEverything) {
+  for (const auto type : {sks::DescriptorType::shot, sks::DescriptorType::cshot}) {
+    const sks::Codebook codebook = makeCodebook(type);
+    const std::uint32_t checksum = sks::writeCodebook(path_, codebook);
+    const auto back = sks::readCodebook(path_);
+    EXPECT_EQ(back->checksum, checksum);
+    EXPECT_EQ(back->name, codebook.name);
+    EXPECT_EQ(back->descriptor_type, type);
+    EXPECT_EQ(sks::settingsToYaml(back->settings), sks::settingsToYaml(codebook.settings));
+    EXPECT_EQ(back->objects, codebook.objects);
+    ASSERT_EQ(back->views.size(), codebook.views.size());
+    for (std::size_t i = 0; i < codebook.views.size(); ++i) {
+      EXPECT_EQ(back->views[i].object, codebook.views[i].object);
+      EXPECT_EQ(back->views[i].source, codebook.views[i].source);
+      EXPECT_EQ(back->views[i].kind, codebook.views[i].kind);
+      EXPECT_EQ(back->views[i].sensor_origin, codebook.views[i].sensor_origin);
+      EXPECT_EQ(back->views[i].box_min, codebook.views[i].box_min);
+      EXPECT_EQ(back->views[i].box_max, codebook.views[i].box_max);
+      EXPECT_EQ(back->views[i].surface_points, codebook.views[i].surface_points);
+      EXPECT_EQ(back->views[i].surface_normals, codebook.views[i].surface_normals);
+    }
+    ASSERT_EQ(back->words.size(), codebook.words.size());
+    for (std::size_t i = 0; i < codebook.words.size(); ++i) {
+      EXPECT_EQ(back->words[i].view, codebook.words[i].view);
+      EXPECT_EQ(back->words[i].position, codebook.words[i].position);
+      EXPECT_EQ(back->words[i].frame, codebook.words[i].frame);
+    }
+    ASSERT_EQ(back->descriptors.rows(), codebook.descriptors.rows());
+    ASSERT_EQ(back->descriptors.cols(), codebook.descriptors.cols());
+    EXPECT_EQ(std::memcmp(back->descriptors.data(), codebook.descriptors.data(),
+                          back->descriptors.rows() * back->descriptors.cols() * sizeof(float)),
+              0);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(back->descriptors.data()) % 64, 0u);
+  }
+}
+
+TEST_F(CodebookFile, DescriptorsOutliveTheCodebook) {
+  sks::writeCodebook(path_, makeCodebook());
+  auto codebook = sks::readCodebook(path_);
+  const sks::DescriptorMatrix descriptors = codebook->descriptors;
+  const float last = makeCodebook().descriptors.row(1)[351];
+  codebook.reset();
+  ::unlink(path_.c_str());
+  EXPECT_EQ(descriptors.row(1)[351], last);
+}
+
+TEST_F(CodebookFile, SameCodebookSameBytes) {
+  const std::string first = content();
+  EXPECT_EQ(content(), first);
+  EXPECT_EQ(folder_.fileCount(), 1u);
+}
+
+TEST_F(CodebookFile, MissingEmptyAndForeign) {
+  EXPECT_EQ(readError(), "No such file or directory");
+  EXPECT_EQ(errorOf(ErrorCode::bad_file, [&] { sks::readCodebook(folder_.path()); }),
+            "cannot read codebook '" + folder_.path() + "': it is a folder; give the name of a file");
+  EXPECT_EQ(readError(""), "it is empty; train it again");
+  EXPECT_EQ(readError("hello"), "it is no codebook");
+  EXPECT_EQ(readError("# .PCD v0.7 - Point Cloud Data file format\n" + std::string(1000, 'x')), "it is no codebook");
+  EXPECT_EQ(readError(std::string(200, '\0')), "it is no codebook");
+}
+
+TEST_F(CodebookFile, EveryTruncationIsNamed) {
+  const std::string whole = content();
+  for (std::size_t length = 1; length < whole.size(); length += length < 200 ? 1 : 37) {
+    EXPECT_EQ(readError(whole.substr(0, length)).rfind("it is truncated: ", 0), 0u) << length;
+  }
+  EXPECT_EQ(readError(whole.substr(0, whole.size() - 1)), "it is truncated: " + std::to_string(whole.size() - 1) +
+                                                              " of " + std::to_string(whole.size()) +
+                                                              " bytes; copy it again");
+  EXPECT_EQ(readError(whole + "x"), "it is damaged (its checksum does not match); copy or train it again");
+}
+
+TEST_F(CodebookFile, EveryFlippedByteIsRefused) {
+  const std::string whole = content();
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    std::string damaged = whole;
+    damaged[at] = char(damaged[at] ^ (1 << (at % 8)));
+    const std::string expected = at < 8    ? "it is no codebook"
+                                 : at < 64 ? "its header is damaged; copy or train it again"
+                                           : "it is damaged (its checksum does not match); copy or train it again";
+    ASSERT_EQ(readError(damaged), expected) << "byte " << at;
+  }
+}
+
+TEST_F(CodebookFile, NewerVersionAsksForAnUpdate) {
+  EXPECT_EQ(readError(withHeader(content(), [](sks::CodebookHeader& header) { header.version = 2; })),
+            "it was written by a newer version (file format 2, this build reads up to 1): update sks_detector");
+}
+
+TEST_F(CodebookFile, SectionsMustLieInsideTheFile) {
+  const std::string whole = content();
+  using Change = void (*)(sks::CodebookHeader&);
+  const Change changes[] = {
+      [](sks::CodebookHeader& header) { header.version = 0; },
+      [](sks::CodebookHeader& header) { header.header_size = 128; },
+      [](sks::CodebookHeader& header) { header.metadata_offset = 0; },
+      [](sks::CodebookHeader& header) { header.metadata_offset = 65; },
+      [](sks::CodebookHeader& header) { header.metadata_size = header.file_size; },
+      [](sks::CodebookHeader& header) { header.metadata_size = std::numeric_limits<std::uint64_t>::max() - 32; },
+      [](sks::CodebookHeader& header) { header.descriptors_offset = std::uint64_t{1} << 63; },
+      [](sks::CodebookHeader& header) { header.descriptors_size += 64; },
+  };
+  for (const Change change : changes) {
+    EXPECT_EQ(readError(withHeader(whole, change)),
+              "it is damaged (its checksum does not match); copy or train it again");
+  }
+  EXPECT_EQ(readError(withHeader(whole, [](sks::CodebookHeader& header) { header.descriptors_size -= 4; })),
+            "its descriptors have no whole rows; train it again");
+  EXPECT_EQ(readError(withHeader(whole, [](sks::CodebookHeader& header) { header.descriptors_size -= 1408; })),
+            "its 2 codewords have 1 descriptors of 352 bins; train it again");
+  EXPECT_EQ(readError(withHeader(whole, [](sks::CodebookHeader& header) { header.metadata_size = 0; })),
+            "its metadata is damaged; train it again");
+}
+
+/// Damage that a checksum cannot show, because it was made before: reading ends with a codebook or an Error.
+TEST_F(CodebookFile, MetadataIsVerifiedBehindTheChecksum) {
+  const std::string whole = content();
+  const std::size_t metadata_end = whole.size() - 2 * 352 * sizeof(float);
+  std::size_t refused = 0;
+  for (std::size_t at = 64; at < metadata_end; ++at) {
+    std::string damaged = whole;
+    damaged[at] = char(damaged[at] ^ 0xff);
+    writeFile(path_, sealed(damaged));
+    try {
+      const auto codebook = sks::readCodebook(path_);
+      EXPECT_EQ(sks::codebookFault(*codebook), "");
+    } catch (const sks::Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::bad_file) << error.what();
+      ++refused;
+    }
+  }
+  EXPECT_GT(refused, 100u);
+}
+
+TEST_F(CodebookFile, UnknownSettingsAreNamed) {
+  std::string whole = content();
+  whole.replace(whole.find("discard"), 7, "discord");
+  const std::string message = readError(sealed(whole));
+  EXPECT_EQ(message.rfind("it was trained with settings that this version does not know: settings:", 0), 0u) << message;
+  EXPECT_NE(message.find("unknown setting 'keypoints.discord': did you mean 'keypoints.discard'?; train it again"),
+            std::string::npos)
+      << message;
+}
+
+TEST_F(CodebookFile, UnknownDescriptorsAreNamed) {
+  std::string whole = content();
+  whole.replace(whole.rfind("shot"), 4, "fpfh");  // the one in the settings lies before it
+  EXPECT_EQ(readError(sealed(whole)),
+            "it holds descriptors of the unknown type 'fpfh' with 352 bins: update sks_detector");
+}
+
+TEST_F(CodebookFile, OnlySoundCodebooksAreWritten) {
+  const auto writeError = [&](const sks::Codebook& codebook) {
+    const std::string message = errorOf(ErrorCode::bad_file, [&] { sks::writeCodebook(path_, codebook); });
+    return message.substr(std::string("cannot write codebook '" + path_ + "': ").size());
+  };
+  sks::Codebook codebook = makeCodebook();
+  codebook.words[1].view = 3;
+  EXPECT_EQ(writeError(codebook), "its codeword 1 belongs to a training cloud that is not there");
+  codebook = makeCodebook();
+  codebook.words.pop_back();
+  EXPECT_EQ(writeError(codebook), "its 1 codewords have 2 descriptors of 352 bins");
+  codebook = makeCodebook();
+  codebook.words[0].frame(1, 1) = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(writeError(codebook), "its codeword 0 is not finite");
+  codebook = makeCodebook();
+  codebook.views[2].surface_normals.pop_back();
+  EXPECT_EQ(writeError(codebook), "its training cloud 'view2.pcd' has not one normal for each surface point");
+  codebook = makeCodebook();
+  codebook.views[0].object = 2;
+  EXPECT_EQ(writeError(codebook), "its training cloud 'view0.pcd' belongs to an object that is not there");
+  codebook = makeCodebook();
+  codebook.descriptor_type = sks::DescriptorType::automatic;
+  EXPECT_EQ(writeError(codebook), "its descriptor type is not decided");
+  EXPECT_EQ(folder_.fileCount(), 0u);
+}
+
+TEST_F(CodebookFile, FailedWriteKeepsTheOldFile) {
+  const std::string before = content();
+  sks::Codebook codebook = makeCodebook();
+  codebook.words[1].view = 3;
+  EXPECT_THROW(sks::writeCodebook(path_, codebook), sks::Error);
+  EXPECT_EQ(sks::readTextFile(path_), before);
+  EXPECT_EQ(errorOf(ErrorCode::bad_file, [&] { sks::writeCodebook(folder_.path("none/a.sks"), makeCodebook()); }),
+            "cannot write '" + folder_.path("none/a.sks") + "': the folder " + folder_.path("none") +
+                " does not exist; create it first");
+}
