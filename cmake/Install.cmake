@@ -13,6 +13,10 @@ if(TARGET sks)
 endif()
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${sks_include_dir} FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY config DESTINATION ${sks_share_dir} FILES_MATCHING PATTERN "*.yaml")
+#catkin_lint: ignore_once wrong_bin_install_destination
+install(PROGRAMS scripts/plot_evaluation.py DESTINATION ${sks_share_dir}/scripts)
+# The other scripts serve the checkout.
+#catkin_lint: ignore uninstalled_script
 
 export(EXPORT ${PROJECT_NAME}Targets NAMESPACE ${PROJECT_NAME}::
   FILE ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}Targets.cmake)

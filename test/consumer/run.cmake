@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Installs the package, builds the consumer against it in an empty folder and runs both the consumer and, where it was
-# installed, the command line. Called as cmake -D... -P run.cmake with
+# Installs the package, builds the consumer against it in an empty folder and runs both the consumer and the installed
+# command line. Called as cmake -D... -P run.cmake with
 #   SOURCE_DIR  root of the checkout
 #   WORK_DIR    folder for everything that is written; emptied first, but for a build of SOURCE_DIR
 #   BUILD_DIR   build to install; if empty, SOURCE_DIR is built as plain CMake first
@@ -36,6 +36,11 @@ endif()
 run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${consumer} ${location})
 run(${CMAKE_COMMAND} --build ${consumer})
 run(${consumer}/consumer)
-if(EXISTS ${prefix}/bin/sks)
+if(NOT SPACE_DIR)
   run(${prefix}/bin/sks --help)
+  foreach(file config/paper.yaml scripts/plot_evaluation.py)
+    if(NOT EXISTS ${prefix}/share/sks_detector/${file})
+      message(FATAL_ERROR "share/sks_detector/${file} was not installed")
+    endif()
+  endforeach()
 endif()
