@@ -17,14 +17,14 @@
 namespace sks::test {
 
 /// What a run of the command line left behind.
-struct Run {
+struct CommandRun {
   int status = 0;      ///< exit status; -1 where a signal ended it
   std::string output;  ///< what was on stdout
   std::string errors;  ///< what was on stderr
 };
 
 /// Runs the command line `sks` without a shell.
-inline Run runSks(const std::vector<std::string>& arguments) {
+inline CommandRun runSks(const std::vector<std::string>& arguments) {
   const TemporaryFolder folder;
   const std::string output = folder.path("stdout"), errors = folder.path("stderr");
   std::string executable = SKS_EXECUTABLE;

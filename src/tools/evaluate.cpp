@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
+
+#include <sks_detector/codebook_file.hpp>
+#include <sks_detector/dataset.hpp>
+#include <sks_detector/detector.hpp>
+#include <sks_detector/error.hpp>
+#include <sks_detector/evaluation.hpp>
+#include <sks_detector/file.hpp>
+#include <sks_detector/trainer.hpp>
+
+#include "tools/command.hpp"
+#include "tools/evaluation_json.hpp"
+#include "tools/evaluation_plots.hpp"
+#include "tools/evaluation_table.hpp"
+#include "tools/method.hpp"
+#include "tools/progress_bar.hpp"
+
+namespace sks::tools {
+namespace {
+
+struct Options {
+  std::string dataset;
+  std::string codebook;
+  std::string save_codebook;
+  std::string method = "sks";
+  std::string plot;
+  SettingsOptions settings;
+  JsonOption json;
+};
+
+std::shared_ptr<const Codebook> trainCodebook(const Options& options, const DataSet& data_set, const Settings& settings,
+                                              const Progress& progress) {
+  if (data_set.training.empty()) {
+    throw Error(ErrorCode::bad_usage,
+                "'" + options.dataset + "' has no training clouds; give a codebook: --codebook FILE");
+  }
+  auto codebook = std::make_shared<Codebook>(train(trainingSamples(data_set), settings, data_set.name, progress));
+  if (!options.save_codebook.empty()) codebook->checksum = writeCodebook(options.save_codebook, *codebook);
+  return codebook;
+}
+
+void run(const Options& options) {
+  std::shared_ptr<const Codebook> codebook;
+  if (!options.codebook.empty()) codebook = readCodebook(options.codebook);
+  Settings settings = codebook ? codebook->settings : Settings();
+  applyMethod(options.method, options.settings, settings);
+  const DataSet data_set = loadDataSet(options.dataset);
+  for (const std::string& warning : data_set.warnings) warn(warning);
+  options.json.check();  // what cannot be written is found before the work is done
+  if (!options.save_codebook.empty()) checkWritable(options.save_codebook);
+  if (!options.plot.empty()) preparePlots(options.plot);
+
+  ProgressBar bar;
+  if (!codebook) codebook = trainCodebook(options, data_set, settings, bar.callback());
+  bar.clear();
+  if (settings.descriptor.type == DescriptorType::automatic) settings.descriptor.type = codebook->descriptor_type;
+  for (const std::string& object : untrainedObjects(data_set, codebook->objects)) {
+    warn("object '" + object + "' of the ground truth was never trained: it counts as missed");
+  }
+  const Detector detector(codebook, settings);
+  const auto detect = [&](const Cloud& cloud) { return detector.detect(cloud); };
+  const Evaluation evaluation = evaluate(data_set, detect, options.method, settings, bar.callback());
+  bar.clear();
+  const nlohmann::json json = evaluationJson(evaluation);
+  options.json.write(json);
+  if (!options.json.onStdout()) print(evaluationTable(evaluation));
+  if (!options.plot.empty()) writePlots(options.plot, data_set, evaluation, json, bar.callback());
+}
+
+}  // namespace
+
+void addEvaluate(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "evaluate", "trains unless given a codebook, detects in every scene of a data set and scores what was found");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--dataset,-d", options->dataset, "data set file (YAML) with the ground truth")
+      ->required()
+      ->type_name("FILE");
+  CLI::Option* codebook =
+      command->add_option("--codebook,-b", options->codebook, "trained codebook (*.sks)")->type_name("FILE");
+  command->add_option("--save-codebook", options->save_codebook, "keep the codebook that was trained")
+      ->type_name("FILE")
+      ->excludes(codebook);
+  command->add_option("--method,-m", options->method, methodHelp())
+      ->type_name("NAME")
+      ->check(CLI::IsMember(methodNames()));
+  options->settings.add(*command);
+  options->json.add(*command);
+  command->add_option("--plot", options->plot, "draw precision-recall curves, thresholds, times and each scene")
+      ->type_name("DIR");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace sks::tools

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/evaluation_json.hpp"
+
+#include "tools/detection_json.hpp"
+#include "tools/settings_json.hpp"
+
+namespace sks::tools {
+namespace {
+
+using nlohmann::json;
+
+json orNull(const std::optional<double>& value) {
+  return value ? json(*value) : json();
+}
+
+json tallyJson(const Tally& tally) {
+  return {{"true_positives", tally.true_positives},
+          {"false_positives", tally.false_positives},
+          {"precision", orNull(tally.precision())},
+          {"recall", orNull(tally.recall())},
+          {"f1", orNull(tally.f1())}};
+}
+
+json pointJson(const CurvePoint& point) {
+  json result = tallyJson(point.tally);
+  result["threshold"] = point.threshold;
+  return result;
+}
+
+json spreadJson(const std::optional<Spread>& spread) {
+  if (!spread) return {{"median", nullptr}, {"p90", nullptr}};
+  return {{"median", spread->median}, {"p90", spread->p90}};
+}
+
+/// Parallel lists of threshold, precision and recall.
+json curveJson(const std::vector<CurvePoint>& curve) {
+  json result{{"threshold", json::array()}, {"precision", json::array()}, {"recall", json::array()}};
+  for (const CurvePoint& point : curve) {
+    result["threshold"].push_back(point.threshold);
+    result["precision"].push_back(orNull(point.tally.precision()));
+    result["recall"].push_back(orNull(point.tally.recall()));
+  }
+  return result;
+}
+
+json scoreJson(const Score& score) {
+  json result = tallyJson(score.tally);
+  const std::vector<CurvePoint> curve = precisionRecallCurve(score.ranking, score.tally.ground_truth);
+  const std::optional<CurvePoint> best = bestPoint(curve);
+  result["ground_truth"] = score.tally.ground_truth;
+  result["average_precision"] = orNull(score.average_precision);
+  result["pose"] = {{"count", score.pose.count},
+                    {"translation_error_m", spreadJson(score.pose.translation)},
+                    {"rotation_error_deg", spreadJson(score.pose.rotation)},
+                    {"t_diff", spreadJson(score.pose.t_diff)}};
+  result["best"] = best ? pointJson(*best) : json();
+  result["curve"] = curveJson(curve);
+  return result;
+}
+
+json groundTruthJson(const SceneResult& result, std::size_t index, double threshold) {
+  const GroundTruth& truth = result.scene.objects[index];
+  bool detected = false;
+  for (const JudgedDetection& judged : result.detections) {
+    detected = detected || (judged.ground_truth == index && judged.detection.score >= threshold);
+  }
+  return {{"object", truth.object},
+          {"position", vectorJson(truth.position)},
+          {"visibility", orNull(truth.visibility)},
+          {"ignored", isIgnored(result.scene, truth.object)},
+          {"detected", detected}};
+}
+
+json judgedJson(const JudgedDetection& judged) {
+  json result = detectionJson(judged.detection);
+  result["ignored"] = judged.outcome == Outcome::ignored;
+  result["true_positive"] = judged.outcome == Outcome::true_positive;
+  if (judged.pose_error) {
+    result["pose_error"] = {{"translation_error_m", judged.pose_error->translation},
+                            {"rotation_error_deg", judged.pose_error->rotation},
+                            {"t_diff", judged.pose_error->t_diff}};
+  }
+  return result;
+}
+
+json sceneJson(const SceneResult& scene, double threshold) {
+  json result{{"name", scene.scene.name},
+              {"time_ms", timesJson(scene.times)},
+              {"counts", countsJson(scene.counts)},
+              {"ground_truth", json::array()},
+              {"detections", json::array()}};
+  for (std::size_t i = 0; i < scene.scene.objects.size(); ++i) {
+    result["ground_truth"].push_back(groundTruthJson(scene, i, threshold));
+  }
+  for (const JudgedDetection& judged : scene.detections) result["detections"].push_back(judgedJson(judged));
+  return result;
+}
+
+}  // namespace
+
+json evaluationJson(const Evaluation& evaluation) {
+  json result = scoreJson(evaluation.total);
+  result["dataset"] = evaluation.data_set;
+  result["method"] = evaluation.method;
+  result["scenes"] = evaluation.scenes.size();
+  result["threshold"] = evaluation.threshold;
+  result["max_distance"] = evaluation.max_distance;
+  result["settings"] = settingsJson(evaluation.settings);
+  result["settings"].erase("threads");  // changes nothing but the times
+  result["peak_memory_mb"] = evaluation.peak_memory_mb;
+  for (const auto& [stage, time] : evaluation.times) {
+    result["time_ms"][stage] = {{"mean", time.mean}, {"p50", time.p50}, {"p95", time.p95}};
+  }
+  result["threshold_sweep"] = json::array();
+  for (const CurvePoint& point : thresholdSweep(evaluation.total.ranking, evaluation.total.tally.ground_truth)) {
+    result["threshold_sweep"].push_back(pointJson(point));
+  }
+  result["per_object"] = json::object();
+  for (const auto& [object, score] : evaluation.objects) result["per_object"][object] = scoreJson(score);
+  result["per_scene"] = json::array();
+  for (const SceneResult& scene : evaluation.scenes) {
+    result["per_scene"].push_back(sceneJson(scene, evaluation.threshold));
+  }
+  return result;
+}
+
+}  // namespace sks::tools

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <sks_detector/evaluation.hpp>
+
+namespace sks::tools {
+
+/// The result of `sks evaluate` (docs/evaluation.md). Undefined values are null. But for the keys `time_ms` and
+/// `peak_memory_mb`, the same detections give the same JSON, whatever the number of threads.
+nlohmann::json evaluationJson(const Evaluation& evaluation);
+
+}  // namespace sks::tools

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/evaluation_plots.hpp"
+
+#include <cctype>
+#include <filesystem>
+
+#include <sks_detector/cloud_io.hpp>
+#include <sks_detector/error.hpp>
+#include <sks_detector/file.hpp>
+
+#include "tools/run_program.hpp"
+#include "tools/scene_picture.hpp"
+#include "tools/share.hpp"
+
+namespace sks::tools {
+namespace {
+
+void makeFolder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Error(ErrorCode::bad_file, "cannot make the folder '" + folder.string() + "': " + error.message());
+}
+
+/// Runs the plotting script, which says on stderr what is wrong.
+void runScript(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{"/usr/bin/python3", sharePath("scripts/plot_evaluation.py")};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  const int status = runProgram(command);
+  if (status == 0) return;
+  throw Error(ErrorCode::bad_file, command[1] + " failed with exit status " + std::to_string(status) +
+                                       "; see its message above, or leave out --plot");
+}
+
+/// The name of a scene's picture; names that cannot stand in a file name are numbered so that no two meet.
+std::string pictureName(const std::string& scene, std::size_t index) {
+  std::string name = scene;
+  for (char& c : name) {
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.' && c != '_') c = '_';
+  }
+  return name + (name == scene ? "" : "_" + std::to_string(index + 1)) + ".png";
+}
+
+}  // namespace
+
+void preparePlots(const std::string& folder) {
+  makeFolder(folder);
+  checkWritable((std::filesystem::path(folder) / "evaluation.json").string());
+  runScript({"--check"});
+}
+
+void writePlots(const std::string& folder, const DataSet& data_set, const Evaluation& evaluation,
+                const nlohmann::json& json, const Progress& progress) {
+  const std::filesystem::path plots(folder);
+  const std::string file = (plots / "evaluation.json").string();
+  writeFileAtomically(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  runScript({file, folder});
+  const std::filesystem::path pictures = plots / "scenes";
+  makeFolder(pictures);
+  const std::size_t count = evaluation.scenes.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const SceneResult& result = evaluation.scenes[i];
+    report(progress, {"drawing", result.scene.name, i, count});
+    saveScenePicture((pictures / pictureName(result.scene.name, i)).string(),
+                     readCloud(result.scene.path, data_set.scale), result, evaluation.threshold);
+  }
+  report(progress, {"drawing", "", count, count});
+}
+
+}  // namespace sks::tools

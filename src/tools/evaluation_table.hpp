@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include <sks_detector/evaluation.hpp>
+
+namespace sks::tools {
+
+/// For people: a table of the objects, a sweep over thresholds and the times of the stages. Undefined values are "-".
+std::string evaluationTable(const Evaluation& evaluation);
+
+}  // namespace sks::tools
