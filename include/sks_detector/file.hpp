@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace sks {
@@ -8,6 +9,9 @@ namespace sks {
 /// Writes `content` to `path` whole or not at all: to a temporary name in the same folder, synced, then renamed.
 /// @throws Error(bad_file) naming the path and the system's reason; the old file is then untouched
 void writeFileAtomically(const std::string& path, const std::string& content);
+
+/// Throws now what writing to `path` would throw later: no such folder, no permission. @throws Error(bad_file)
+void checkWritable(const std::string& path);
 
 /// Reads a whole text file. @throws Error(bad_file) naming the path and the reason, also where it exceeds `max_bytes`
 std::string readTextFile(const std::string& path, std::size_t max_bytes = 64u << 20);

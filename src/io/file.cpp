@@ -20,6 +20,15 @@ void writeFileAtomically(const std::string& path, const std::string& content) {
   file.commit();
 }
 
+void checkWritable(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored) &&
+      !std::filesystem::is_directory(path, ignored)) {
+    return;  // opening a pipe and closing it again would end it
+  }
+  const AtomicFile probe(path);
+}
+
 std::string readTextFile(const std::string& path, std::size_t max_bytes) {
   const auto fail = [&](const std::string& reason) {
     throw Error(ErrorCode::bad_file, "cannot read '" + path + "': " + reason);

@@ -53,6 +53,9 @@ public:
   /// True if stdout belongs to the JSON: no table may be printed to it then.
   bool onStdout() const { return path_ == "-"; }
 
+  /// Throws what write() would throw, before the work is done whose results it writes. @throws Error(bad_file)
+  void check() const;
+
   /// Does nothing where --json was not given. @throws Error(bad_file)
   void write(const nlohmann::json& json) const;
 

@@ -4,14 +4,23 @@
 #include <sks_detector/evaluation.hpp>
 
 namespace sks::tools {
+namespace {
+
+nlohmann::json boxJson(const Detection& detection) {
+  const Eigen::Quaterniond q(detection.T_scene_box.linear());
+  return {{"center", vectorJson(detection.position())},
+          {"orientation", {q.x(), q.y(), q.z(), q.w()}},
+          {"size", vectorJson(detection.box_size)}};
+}
+
+}  // namespace
 
 nlohmann::json detectionJson(const Detection& detection) {
   return {{"object", detection.object},
           {"score", detection.score},
           {"position", vectorJson(detection.position())},
           {"pose", poseJson(detection.T_scene_model)},
-          {"box_pose", poseJson(detection.T_scene_box)},
-          {"box_size", vectorJson(detection.box_size)},
+          {"box", boxJson(detection)},
           {"view", detection.view},
           {"density", detection.density},
           {"votes", detection.votes},

@@ -7,8 +7,8 @@
 
 namespace sks::tools {
 
-/// Keys object, score, position [m], pose (16 numbers, row-major, T_scene_model), box_pose (the same of the box),
-/// box_size [m], view, density, votes, inliers.
+/// Keys object, score, position [m], pose (16 numbers, row-major, T_scene_model), box (center and size [m], orientation
+/// as quaternion x y z w), view, density, votes, inliers.
 nlohmann::json detectionJson(const Detection& detection);
 
 /// The 16 numbers of a pose, row-major.

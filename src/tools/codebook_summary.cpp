@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/codebook_summary.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "core/value_text.hpp"
+#include "tools/settings_json.hpp"
+#include "tools/table.hpp"
+
+namespace sks::tools {
+namespace {
+
+struct ObjectSummary {
+  std::size_t views = 0;
+  std::size_t words = 0;
+  Eigen::Vector3f largest = Eigen::Vector3f::Zero();  // extents over its training clouds [m]
+};
+
+std::vector<ObjectSummary> summarize(const Codebook& codebook) {
+  std::vector<ObjectSummary> objects(codebook.objects.size());
+  for (const TrainingView& view : codebook.views) {
+    ObjectSummary& object = objects[view.object];
+    ++object.views;
+    object.largest = object.largest.cwiseMax(view.extent());
+  }
+  for (const Codeword& word : codebook.words) ++objects[codebook.views[word.view].object].words;
+  return objects;
+}
+
+std::uintmax_t fileSize(const std::string& path) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  return error ? 0 : size;
+}
+
+}  // namespace
+
+std::string codebookTable(const std::string& path, const Codebook& codebook) {
+  Table table({"<object", "training clouds", "codewords", "largest extents [m]"});
+  const std::vector<ObjectSummary> objects = summarize(codebook);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const ObjectSummary& object = objects[i];
+    table.add(
+        {codebook.objects[i], std::to_string(object.views), std::to_string(object.words),
+         fixed(object.largest.x(), 3) + " x " + fixed(object.largest.y(), 3) + " x " + fixed(object.largest.z(), 3)});
+  }
+  table.add({"all", std::to_string(codebook.views.size()), std::to_string(codebook.words.size()), ""});
+  return path + ": codebook '" + codebook.name + "', " + toText(codebook.descriptor_type) + ", checksum " +
+         checksumText(codebook) + ", " + fixed(double(fileSize(path)) / 1e6, 1) + " MB\n" + table.text();
+}
+
+nlohmann::json codebookJson(const std::string& path, const Codebook& codebook) {
+  nlohmann::json list = nlohmann::json::array();
+  const std::vector<ObjectSummary> objects = summarize(codebook);
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const Eigen::Vector3f& largest = objects[i].largest;
+    list.push_back({{"name", codebook.objects[i]},
+                    {"training_clouds", objects[i].views},
+                    {"codewords", objects[i].words},
+                    {"largest_extents", {largest.x(), largest.y(), largest.z()}}});
+  }
+  return {{"file", path},
+          {"name", codebook.name},
+          {"checksum", checksumText(codebook)},
+          {"bytes", fileSize(path)},
+          {"descriptor_type", toText(codebook.descriptor_type)},
+          {"descriptor_size", descriptorSize(codebook.descriptor_type)},
+          {"training_clouds", codebook.views.size()},
+          {"codewords", codebook.words.size()},
+          {"objects", list},
+          {"settings", settingsJson(codebook.settings)}};
+}
+
+std::string checksumText(const Codebook& codebook) {
+  char text[9];
+  std::snprintf(text, sizeof(text), "%08x", codebook.checksum);
+  return text;
+}
+
+}  // namespace sks::tools

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/command.hpp"
+
+#include <cstdio>
+#include <iostream>
+
+#include <sks_detector/error.hpp>
+#include <sks_detector/file.hpp>
+#include <sks_detector/settings_file.hpp>
+
+namespace sks::tools {
+
+void SettingsOptions::add(CLI::App& command) {
+  command.add_option("--config,-c", config_, "settings file (YAML); see `sks settings --yaml`")->type_name("FILE");
+  command.add_option("--set,-s", sets_, "one setting, after those of --config; can be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void SettingsOptions::apply(Settings& settings) const {
+  if (!config_.empty()) loadSettings(config_, settings);
+  for (const std::string& set : sets_) {
+    const std::size_t equals = set.find('=');
+    if (equals == std::string::npos) {
+      throw Error(ErrorCode::bad_usage, "--set " + set + ": expected key=value, e.g. --set keypoints.discard=0.5");
+    }
+    setSetting(settings, set.substr(0, equals), set.substr(equals + 1));
+  }
+  validate(settings);
+}
+
+void JsonOption::add(CLI::App& command) {
+  command.add_option("--json", path_, "write the results as JSON; - for stdout")->type_name("FILE");
+}
+
+void JsonOption::check() const {
+  if (!path_.empty() && !onStdout()) checkWritable(path_);
+}
+
+void JsonOption::write(const nlohmann::json& json) const {
+  if (path_.empty()) return;
+  const std::string text = json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+  if (onStdout()) {
+    print(text);
+  } else {
+    writeFileAtomically(path_, text);
+  }
+}
+
+void warn(const std::string& message) {
+  std::cerr << "sks: warning: " << message << std::endl;
+}
+
+void print(const std::string& text) {
+  std::cout << text << std::flush;
+  if (!std::cout) throw Error(ErrorCode::bad_file, "cannot write the results to stdout");
+}
+
+}  // namespace sks::tools

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <memory>
+
+#include <sks_detector/codebook_file.hpp>
+#include <sks_detector/dataset.hpp>
+#include <sks_detector/error.hpp>
+#include <sks_detector/file.hpp>
+#include <sks_detector/trainer.hpp>
+
+#include "core/stopwatch.hpp"
+#include "tools/codebook_summary.hpp"
+#include "tools/command.hpp"
+#include "tools/progress_bar.hpp"
+#include "tools/table.hpp"
+
+namespace sks::tools {
+namespace {
+
+struct Options {
+  std::string dataset;
+  std::string output;
+  std::string name;
+  SettingsOptions settings;
+  JsonOption json;
+};
+
+void run(const Options& options) {
+  Settings settings;
+  options.settings.apply(settings);
+  const DataSet data_set = loadDataSet(options.dataset);
+  for (const std::string& warning : data_set.warnings) warn(warning);
+  if (data_set.training.empty()) {
+    throw Error(ErrorCode::bad_data, "'" + options.dataset + "' has no training clouds; list them under 'training'");
+  }
+  checkWritable(options.output);  // before training takes its time
+  options.json.check();
+
+  Stopwatch stopwatch;
+  ProgressBar bar;
+  Codebook codebook =
+      train(trainingSamples(data_set), settings, options.name.empty() ? data_set.name : options.name, bar.callback());
+  bar.clear();
+  codebook.checksum = writeCodebook(options.output, codebook);
+  const double seconds = stopwatch.lap();
+
+  nlohmann::json json = codebookJson(options.output, codebook);
+  json["seconds"] = seconds;
+  options.json.write(json);
+  if (options.json.onStdout()) return;
+  print(codebookTable(options.output, codebook) + "trained in " + fixed(seconds, 1) + " s\n");
+}
+
+}  // namespace
+
+void addTrain(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("train", "trains a codebook from the training clouds of a data set");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--dataset,-d", options->dataset, "data set file (YAML) that lists the training clouds")
+      ->required()
+      ->type_name("FILE");
+  command->add_option("--output,-o", options->output, "codebook file to write (*.sks)")->required()->type_name("FILE");
+  command->add_option("--name", options->name, "name of the codebook (default: that of the data set)");
+  options->settings.add(*command);
+  options->json.add(*command);
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace sks::tools

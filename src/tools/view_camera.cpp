@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/view_camera.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace sks::tools {
+namespace {
+
+std::vector<Eigen::Vector3d> finitePoints(const Cloud& cloud) {
+  std::vector<Eigen::Vector3d> points;
+  for (const Eigen::Vector3f& p : cloud.points) {
+    if (p.allFinite()) points.push_back(p.cast<double>());
+  }
+  return points;
+}
+
+/// A camera at `eye` that looks along `forward`, with `up` as near to upwards as can be.
+Eigen::Isometry3d lookAlong(const Eigen::Vector3d& eye, const Eigen::Vector3d& forward, const Eigen::Vector3d& up) {
+  const Eigen::Vector3d z = forward.normalized();
+  const Eigen::Vector3d x = z.cross(up).normalized();
+  Eigen::Matrix3d axes;
+  axes << x.transpose(), z.cross(x).transpose(), z.transpose();
+  Eigen::Isometry3d T_camera_cloud = Eigen::Isometry3d::Identity();
+  T_camera_cloud.linear() = axes;
+  T_camera_cloud.translation() = -axes * eye;
+  return T_camera_cloud;
+}
+
+Eigen::Isometry3d choosePose(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& sensor) {
+  if (points.empty()) return Eigen::Isometry3d::Identity();
+  Eigen::Vector3d low = points.front(), high = low, sum = Eigen::Vector3d::Zero();
+  std::size_t in_front = 0;  // within 45 degrees of the z axis
+  for (const Eigen::Vector3d& p : points) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+    sum += p;
+    const Eigen::Vector3d ray = p - sensor;
+    if (ray.z() > ray.head<2>().norm()) ++in_front;
+  }
+  const Eigen::Vector3d center = sum / double(points.size());
+  if (10 * in_front > 9 * points.size()) {
+    return lookAlong(sensor, Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitY());
+  }
+  const auto up = [](const Eigen::Vector3d& forward) -> Eigen::Vector3d {
+    const bool along_z = std::abs(forward.normalized().z()) > 0.8;
+    return along_z ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
+  };
+  const double radius = 0.5 * (high - low).norm();
+  Eigen::Vector3d forward = center - sensor, eye = sensor;
+  if (forward.norm() < radius) {
+    forward = Eigen::Vector3d(-1, 0.6, -0.5);
+    eye = center - 3 * radius * forward.normalized();
+  }
+  return lookAlong(eye, forward, up(forward));
+}
+
+/// Range of the values without the outermost 0.2 % on each side.
+std::pair<double, double> innerRange(std::vector<double> values) {
+  const std::size_t cut = values.size() / 500;
+  const auto at = [&](std::size_t i) {
+    std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(i), values.end());
+    return values[i];
+  };
+  const double low = at(cut);
+  return {low, at(values.size() - 1 - cut)};
+}
+
+}  // namespace
+
+ViewCamera::ViewCamera(const Cloud& cloud, cv::Size size) : center_(0.5 * size.width, 0.5 * size.height) {
+  const std::vector<Eigen::Vector3d> points = finitePoints(cloud);
+  T_camera_cloud_ = choosePose(points, cloud.sensor_origin.cast<double>());
+
+  focal_ = size.width;
+  std::vector<double> u, v;
+  for (const Eigen::Vector3d& point : points) {
+    const Eigen::Vector3d p = toCamera(point);
+    if (p.z() < near_plane) continue;
+    u.push_back(p.x() / p.z());
+    v.push_back(p.y() / p.z());
+  }
+  if (u.empty()) return;
+  const auto [left, right] = innerRange(std::move(u));
+  const auto [top, bottom] = innerRange(std::move(v));
+  constexpr double margin = 0.94, narrowest = 1e-3;
+  focal_ = margin *
+           std::min(size.width / std::max(right - left, narrowest), size.height / std::max(bottom - top, narrowest));
+  center_ -= 0.5 * focal_ * cv::Point2d(left + right, top + bottom);
+}
+
+cv::Point2d ViewCamera::pixel(const Eigen::Vector3d& in_camera) const {
+  return center_ + focal_ / in_camera.z() * cv::Point2d(in_camera.x(), in_camera.y());
+}
+
+Eigen::Vector3d ViewCamera::ray(double column, double row) const {
+  return {(column - center_.x) / focal_, (row - center_.y) / focal_, 1};
+}
+
+}  // namespace sks::tools
