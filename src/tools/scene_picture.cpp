@@ -31,7 +31,7 @@ void saveScenePicture(const std::string& path, const Cloud& cloud, const SceneRe
     if (found[i] || ignored) continue;
     Eigen::Isometry3d T_scene_truth = Eigen::Isometry3d::Identity();
     T_scene_truth.translation() = truth.position;
-    const Eigen::Vector3d clear_of_cross = Eigen::Vector3d::Constant(0.04);  // [m]
+    const Eigen::Vector3d clear_of_cross = Eigen::Vector3d::Constant(0.02);  // [m]
     picture.drawLabel(T_scene_truth, clear_of_cross, truth.object + " missed", missed);
   }
   picture.save(path);
