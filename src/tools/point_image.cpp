@@ -20,26 +20,48 @@ struct Buffer {
   cv::Mat1i index;
 };
 
-Buffer splat(const Cloud& cloud, const ViewCamera& camera, cv::Size size) {
-  Buffer buffer{cv::Mat1f(size, nothing), cv::Mat1i(size, -1)};
-  // Squares as large as the mean distance between points, were they spread over half of the picture.
-  const double spacing = std::sqrt(0.5 * size.area() / double(std::max<std::size_t>(cloud.size(), 1)));
-  const int side = std::clamp(int(std::ceil(spacing)), 1, 6);
-  const cv::Rect frame({0, 0}, size);
+/// A point of the cloud in the picture.
+struct Projection {
+  cv::Point2d pixel;
+  float depth;
+  int index;
+};
+
+std::vector<Projection> project(const Cloud& cloud, const ViewCamera& camera, cv::Size size) {
+  std::vector<Projection> projections;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (!cloud.points[i].allFinite()) continue;
     const Eigen::Vector3d p = camera.toCamera(cloud.points[i].cast<double>());
     if (p.z() < near_plane) continue;
     const cv::Point2d pixel = camera.pixel(p);
-    if (!(std::abs(pixel.x) < 1e6 && std::abs(pixel.y) < 1e6)) continue;
-    const cv::Rect square(int(std::floor(pixel.x - 0.5 * (side - 1))), int(std::floor(pixel.y - 0.5 * (side - 1))),
-                          side, side);
-    const cv::Rect inside = square & frame;
+    const bool inside = pixel.x >= 0 && pixel.x < size.width && pixel.y >= 0 && pixel.y < size.height;
+    if (inside) projections.push_back({pixel, float(p.z()), int(i)});
+  }
+  return projections;
+}
+
+/// Edge of the squares that just cover a surface if each point is drawn as one.
+int squareSize(const std::vector<Projection>& projections, cv::Size size) {
+  constexpr int cell = 16, smallest = 1, largest = 12;
+  cv::Mat1b covered = cv::Mat1b::zeros(size.height / cell + 1, size.width / cell + 1);
+  for (const Projection& p : projections) covered(int(p.pixel.y) / cell, int(p.pixel.x) / cell) = 1;
+  const double area = double(cv::countNonZero(covered)) * cell * cell;
+  const double spacing = std::sqrt(area / double(std::max<std::size_t>(projections.size(), 1)));
+  return std::clamp(int(std::ceil(1.5 * spacing)), smallest, largest);
+}
+
+Buffer splat(const std::vector<Projection>& projections, cv::Size size) {
+  Buffer buffer{cv::Mat1f(size, nothing), cv::Mat1i(size, -1)};
+  const int side = squareSize(projections, size);
+  const cv::Rect frame({0, 0}, size);
+  for (const Projection& p : projections) {
+    const cv::Point corner(int(std::lround(p.pixel.x - 0.5 * side)), int(std::lround(p.pixel.y - 0.5 * side)));
+    const cv::Rect inside = cv::Rect(corner, cv::Size(side, side)) & frame;
     for (int row = inside.y; row < inside.y + inside.height; ++row) {
       for (int column = inside.x; column < inside.x + inside.width; ++column) {
-        if (p.z() >= buffer.depth(row, column)) continue;
-        buffer.depth(row, column) = float(p.z());
-        buffer.index(row, column) = int(i);
+        if (p.depth >= buffer.depth(row, column)) continue;
+        buffer.depth(row, column) = p.depth;
+        buffer.index(row, column) = p.index;
       }
     }
   }
@@ -97,8 +119,8 @@ cv::Vec3b shade(float share_of_depth, float cosine) {
 }  // namespace
 
 cv::Mat renderPoints(const Cloud& cloud, const ViewCamera& camera, cv::Size size) {
-  Buffer buffer = splat(cloud, camera, size);
-  for (int pass = 0; pass < 2; ++pass) closeGaps(buffer);
+  Buffer buffer = splat(project(cloud, camera, size), size);
+  for (int pass = 0; pass < 3; ++pass) closeGaps(buffer);  // three close a crossing of lines one pixel wide
 
   std::vector<float> depths;
   for (const float depth : buffer.depth) {

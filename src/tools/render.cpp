@@ -18,6 +18,10 @@
 namespace sks::tools {
 namespace {
 
+constexpr int font = cv::FONT_HERSHEY_SIMPLEX;
+constexpr double font_scale = 0.7;
+constexpr int gap = 5;  // around a label's text [pixels]
+
 cv::Scalar toBgr(Rgb color) {
   return cv::Scalar(color.b, color.g, color.r);
 }
@@ -91,26 +95,19 @@ void Picture::drawLabel(const Eigen::Isometry3d& T_cloud_box, const Eigen::Vecto
     top.y = std::min(top.y, pixel.y);
     middle += pixel.x / 8;
   }
-  constexpr double scale = 0.7;
-  constexpr int gap = 6;
-  int baseline = 0;
-  const cv::Size extent = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, scale, 1, &baseline);
-  cv::Rect plate(0, 0, extent.width + 2 * gap, extent.height + baseline + 2 * gap);
+  const cv::Size extent = cv::getTextSize(text, font, font_scale, 1, nullptr);
+  cv::Rect plate(0, 0, extent.width + 2 * gap, extent.height + 3 * gap);
   const auto within = [](double value, int size, int limit) {
     return int(std::clamp(value, 0.0, std::max(0.0, double(limit - size))));
   };
   plate.x = within(middle - 0.5 * plate.width, plate.width, image_.cols);
   plate.y = within(top.y - plate.height - gap, plate.height, image_.rows);
-  const auto taken = [&](const cv::Rect& other) { return (plate & other).area() > 0; };
+  const auto taken = [&](const Label& other) { return (plate & other.plate).area() > 0; };
   for (auto hit = labels_.begin(); (hit = std::find_if(labels_.begin(), labels_.end(), taken)) != labels_.end();) {
     if (plate.y + plate.height >= image_.rows) break;  // no room left
-    plate.y = hit->y + hit->height + 1;
+    plate.y = hit->plate.y + hit->plate.height + 1;
   }
-  labels_.push_back(plate);
-  cv::rectangle(image_, plate, toBgr(color), cv::FILLED);
-  const bool light = 0.3 * color.r + 0.59 * color.g + 0.11 * color.b > 120;
-  cv::putText(image_, text, {plate.x + gap, plate.y + gap + extent.height}, cv::FONT_HERSHEY_SIMPLEX, scale,
-              cv::Scalar::all(light ? 0 : 255), 1, cv::LINE_AA);
+  labels_.push_back({plate, text, color});
 }
 
 void Picture::drawDetection(const Detection& detection, Rgb color) {
@@ -122,8 +119,16 @@ void Picture::drawDetection(const Detection& detection, Rgb color) {
 }
 
 void Picture::save(const std::string& path) const {
+  cv::Mat image = image_.clone();
+  for (const Label& label : labels_) {
+    const Rgb& color = label.color;
+    const bool light = 0.3 * color.r + 0.59 * color.g + 0.11 * color.b > 120;
+    cv::rectangle(image, label.plate, toBgr(color), cv::FILLED);
+    cv::putText(image, label.text, {label.plate.x + gap, label.plate.y + label.plate.height - 2 * gap}, font,
+                font_scale, cv::Scalar::all(light ? 0 : 255), 1, cv::LINE_AA);
+  }
   std::vector<uchar> bytes;
-  cv::imencode(endingOf(path), image_, bytes);
+  cv::imencode(endingOf(path), image, bytes);
   writeFileAtomically(path, std::string(bytes.begin(), bytes.end()));
 }
 

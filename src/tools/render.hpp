@@ -28,24 +28,28 @@ public:
   /// A cross at a place, e.g. of an object that was missed.
   void drawCross(const Eigen::Vector3d& place, Rgb color);
 
-  /// Text on a plate of the given colour just above the box, clear of earlier labels.
+  /// Text on a plate of the given colour just above the box, clear of earlier labels and above all lines.
   void drawLabel(const Eigen::Isometry3d& T_cloud_box, const Eigen::Vector3d& box_size, const std::string& text,
                  Rgb color);
 
   /// Box, the model's axes at the box's centre, and a label such as "mario 0.87".
   void drawDetection(const Detection& detection, Rgb color);
 
-  const cv::Mat& image() const { return image_; }
-
   /// Writes a PNG or JPEG whole or not at all. @throws Error(bad_usage) for another ending, Error(bad_file)
   void save(const std::string& path) const;
 
 private:
+  struct Label {
+    cv::Rect plate;
+    std::string text;
+    Rgb color;
+  };
+
   void drawLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to, Rgb color, int thickness);
 
   ViewCamera camera_;
   cv::Mat image_;
-  std::vector<cv::Rect> labels_;
+  std::vector<Label> labels_;  // painted last
 };
 
 /// Colours that are easily told apart, one for each index.

@@ -28,32 +28,38 @@ Eigen::Isometry3d lookAlong(const Eigen::Vector3d& eye, const Eigen::Vector3d& f
   return T_camera_cloud;
 }
 
+/// Depth cameras look along +z with y downwards, graphics and models along -z with y upwards.
+Eigen::Vector3d upFor(const Eigen::Vector3d& forward) {
+  if (std::abs(forward.y()) > 0.9) return Eigen::Vector3d::UnitZ();
+  return {0, forward.z() > 0 ? -1.0 : 1.0, 0};
+}
+
+/// Whether nearly all points lie within an angle of a direction, seen from `eye`.
+bool ahead(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& eye, const Eigen::Vector3d& forward,
+           double degrees) {
+  const double cosine = std::cos(degrees * EIGEN_PI / 180);
+  const auto inside = [&](const Eigen::Vector3d& p) { return (p - eye).dot(forward) > cosine * (p - eye).norm(); };
+  return double(std::count_if(points.begin(), points.end(), inside)) > 0.97 * double(points.size());
+}
+
 Eigen::Isometry3d choosePose(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector3d& sensor) {
   if (points.empty()) return Eigen::Isometry3d::Identity();
+  if (ahead(points, sensor, Eigen::Vector3d::UnitZ(), 60)) {  // wide, as it is the usual direction
+    return lookAlong(sensor, Eigen::Vector3d::UnitZ(), upFor(Eigen::Vector3d::UnitZ()));
+  }
   Eigen::Vector3d low = points.front(), high = low, sum = Eigen::Vector3d::Zero();
-  std::size_t in_front = 0;  // within 45 degrees of the z axis
   for (const Eigen::Vector3d& p : points) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
     sum += p;
-    const Eigen::Vector3d ray = p - sensor;
-    if (ray.z() > ray.head<2>().norm()) ++in_front;
   }
   const Eigen::Vector3d center = sum / double(points.size());
-  if (10 * in_front > 9 * points.size()) {
-    return lookAlong(sensor, Eigen::Vector3d::UnitZ(), -Eigen::Vector3d::UnitY());
+  Eigen::Vector3d eye = sensor, forward = (center - sensor).normalized();
+  if (!forward.allFinite() || !ahead(points, sensor, forward, 45)) {
+    forward = Eigen::Vector3d(-0.5, -0.3, -1).normalized();
+    eye = center - 1.5 * (high - low).norm() * forward;
   }
-  const auto up = [](const Eigen::Vector3d& forward) -> Eigen::Vector3d {
-    const bool along_z = std::abs(forward.normalized().z()) > 0.8;
-    return along_z ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitZ();
-  };
-  const double radius = 0.5 * (high - low).norm();
-  Eigen::Vector3d forward = center - sensor, eye = sensor;
-  if (forward.norm() < radius) {
-    forward = Eigen::Vector3d(-1, 0.6, -0.5);
-    eye = center - 3 * radius * forward.normalized();
-  }
-  return lookAlong(eye, forward, up(forward));
+  return lookAlong(eye, forward, upFor(forward));
 }
 
 /// Range of the values without the outermost 0.2 % on each side.
