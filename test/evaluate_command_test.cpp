@@ -180,6 +180,13 @@ TEST_F(EvaluateCommand, GridKeepsEveryKeypoint) {
   EXPECT_EQ(all["settings"]["keypoints.discard"], 0.0);
 }
 
+TEST_F(EvaluateCommand, PaperStartsFromItsPreset) {
+  const json result = evaluated({"--method", "sks-paper", "--set", "keypoints.discard=0.25"});
+  EXPECT_EQ(result["method"], "sks-paper");
+  EXPECT_EQ(result["settings"]["keypoints.discard"], 0.25);
+  EXPECT_EQ(result["true_positives"], 1);
+}
+
 TEST_F(EvaluateCommand, PrintsTables) {
   const CommandRun run = evaluate();
   EXPECT_EQ(run.status, 0) << run.errors;

@@ -51,7 +51,7 @@ TEST_P(RecordedDataSet, GroundTruthIsTheBoxCentreOfTheReferenceMappedByThePose) 
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RecordedDataSet, ::testing::Values("kinect", "random_views_noise_0.1"),
-                         [](const auto& info) { return std::string(info.param).substr(0, 6); });
+                         [](const auto& set) { return std::string(set.param).substr(0, 6); });
 
 }  // namespace
 }  // namespace sks
