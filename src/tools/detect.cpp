@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -8,6 +9,7 @@
 #include <sks_detector/detector.hpp>
 #include <sks_detector/error.hpp>
 
+#include "core/value_text.hpp"
 #include "tools/codebook_summary.hpp"
 #include "tools/command.hpp"
 #include "tools/detection_json.hpp"
@@ -110,7 +112,11 @@ void addDetect(CLI::App& app) {
   command->add_option("--codebook,-b", options->codebook, "trained codebook (*.sks)")->required()->type_name("FILE");
   command->add_option("clouds", options->clouds, "PCD or PLY files")->required()->type_name("CLOUD");
   command->add_option("--scale", options->scale, "factor from the clouds' unit to metres: 0.001 for millimetres")
-      ->check(CLI::PositiveNumber);
+      ->check([](const std::string& text) {
+        double scale = 0;
+        const bool positive = fromText(text, scale) && scale > 0 && std::isfinite(scale);
+        return positive ? std::string() : "'" + text + "' is not a positive number";
+      });
   command
       ->add_option("--image", options->image,
                    "draw each cloud with what was found (PNG, JPEG); several clouds are numbered")

@@ -4,6 +4,7 @@
 
 #include <sks_detector/error.hpp>
 
+#include "io/nearest_name.hpp"
 #include "tools/command.hpp"
 #include "tools/progress_bar.hpp"
 
@@ -12,6 +13,16 @@ namespace {
 int fail(const std::string& message, int status) {
   std::cerr << "sks: " << message << std::endl;
   return status;
+}
+
+/// What is wrong with the arguments; CLI11 would not name a misspelt subcommand.
+std::string usageMessage(const CLI::App& app, const CLI::ParseError& error, const std::string& first_argument) {
+  if (!app.get_subcommands().empty() || first_argument.empty() || first_argument[0] == '-') return error.what();
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names.push_back(command->get_name());
+  }
+  return "unknown subcommand '" + first_argument + "': did you mean '" + sks::nearestName(first_argument, names) + "'?";
 }
 
 }  // namespace
@@ -34,7 +45,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return fail(std::string(error.what()) + "; see --help", 2);
+    return fail(usageMessage(app, error, argc > 1 ? argv[1] : "") + "; see --help", 2);
   } catch (const Error& error) {
     return fail(error.what(), error.code() == ErrorCode::bad_usage ? 2 : 1);
   } catch (const std::bad_alloc&) {
