@@ -22,11 +22,12 @@ struct Hypothesis {
   Eigen::Vector3d box_size = Eigen::Vector3d::Zero();             ///< full extents [m]
   double density = 0;                  ///< of the inliers' votes at their maximum (eq. 3 without its constant)
   std::uint32_t votes = 0;             ///< votes at the maximum before RANSAC
-  std::vector<std::uint32_t> inliers;  ///< indices of the agreeing votes
+  std::vector<std::uint32_t> inliers;  ///< indices of the votes that RANSAC did not remove
 };
 
 /// RANSAC on the pairs {p_t, p_s} of a maximum's votes (section 3.2); then density, least-squares pose and box from
-/// the inliers. Training views have frames of their own, so pairs are compared within one view.
+/// the inliers. Training views have frames of their own, so pairs are compared within one view; the view with most
+/// inliers gives the pose. Votes of views with fewer than three pairs can be neither confirmed nor refuted: they stay.
 /// @return false if fewer than min_inliers agree
 bool estimateHypothesis(const Codebook& codebook, std::uint32_t object, const std::vector<Vote>& votes,
                         const Maximum& maximum, const Settings& settings, Hypothesis& hypothesis);

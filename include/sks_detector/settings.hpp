@@ -116,6 +116,7 @@ struct KeypointSettings {
 struct DescriptorSettings {
   DescriptorType type = DescriptorType::automatic;
   double radius = 0.05;
+  double model_facing = 0.0;
   int min_neighbors = 5;
 
   template <typename Self, typename Visitor>
@@ -124,12 +125,16 @@ struct DescriptorSettings {
       Binding::codebook);
     v(s.radius, "radius", Range{0.002, 1}, "m", "support radius of descriptor and local reference frame",
       Binding::codebook);
+    v(s.model_facing, "model_facing", Range{-1, 1}, "",
+      "training on full models: only the part of the support whose normals have at least this cosine with the "
+      "keypoint's own is described, since a camera cannot see the far side; -1: all of it",
+      Binding::codebook);
     v(s.min_neighbors, "min_neighbors", Range{5, 10000}, "", "keypoints with fewer neighbours get no descriptor");
   }
 };
 
 struct VotingSettings {
-  double bandwidth = 0.02;
+  double bandwidth = 0.03;
   int max_iterations = 100;
   double tolerance = 1e-5;
   double suppression_radius = 0.05;
@@ -147,7 +152,7 @@ struct VotingSettings {
 };
 
 struct RansacSettings {
-  double inlier_threshold = 0.015;
+  double inlier_threshold = 0.025;
   int iterations = 200;
   int min_inliers = 3;
   int seed = 1;
@@ -163,7 +168,7 @@ struct RansacSettings {
 
 struct DetectionSettings {
   double threshold = 0.5;
-  double half_density = 5.0;
+  double half_density = 8.0;
   int max_per_object = 20;
 
   template <typename Self, typename Visitor>

@@ -12,6 +12,12 @@
 
 namespace sks {
 
+/// How normals are turned.
+enum class Orientation {
+  sensor,  ///< towards the sensor origin: scenes and views
+  outward  ///< away from the inside: full models
+};
+
 /// A prepared cloud: the one representation that every stage reads.
 struct Surface : PointGrid {
   using PointGrid::PointGrid;
@@ -22,12 +28,7 @@ struct Surface : PointGrid {
   std::vector<float> nx, ny, nz;            ///< unit normals; NaN where none could be estimated
   std::vector<std::array<float, 3>> color;  ///< CIELab, scaled: L / 100, a / 120, b / 120; empty without colour
   Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();  ///< [m]
-};
-
-/// How normals are turned.
-enum class Orientation {
-  sensor,  ///< towards the sensor origin: scenes and views
-  outward  ///< away from the inside: full models
+  Orientation orientation = Orientation::sensor;            ///< of the normals, once estimated
 };
 
 /// Sorts the points of a sanitized cloud and converts their colours; normals are left empty (see estimateNormals()).

@@ -12,6 +12,8 @@
 namespace sks {
 namespace {
 
+constexpr float core_share = 0.2f;  // of the support radius: the points that stand for the keypoint itself
+
 struct Workspace {
   Neighborhood neighborhood;
   ShotSupport support;
@@ -21,12 +23,15 @@ bool describe(const Surface& surface, const Eigen::Vector3f& keypoint, Descripto
               const DescriptorSettings& settings, Workspace& work, Eigen::Matrix3f& frame, float* histogram) {
   const float radius = float(settings.radius);
   work.neighborhood.gather(surface, keypoint, radius);
+  if (surface.orientation == Orientation::outward && settings.model_facing > -1) {
+    work.neighborhood.keepFacing(float(settings.model_facing), core_share * radius);
+  }
   if (work.neighborhood.size < std::size_t(settings.min_neighbors)) return false;
   if (!localReferenceFrame(work.neighborhood, radius, frame)) return false;
   work.support.locate(work.neighborhood, frame, radius);
   addShapeHistogram(work.neighborhood, work.support, histogram);
   if (type == DescriptorType::cshot) {
-    addColorHistogram(surface, work.neighborhood, work.support, radius, histogram + shot_size);
+    addColorHistogram(surface, work.neighborhood, work.support, core_share * radius, histogram + shot_size);
   }
   return normalize(histogram, descriptorSize(type));
 }

@@ -55,7 +55,10 @@ bool estimateHypothesis(const Codebook& codebook, std::uint32_t object, const st
   ViewConsensus best;
   std::vector<std::uint32_t> inliers;
   for (const auto& [view, members] : by_view) {
-    if (members.size() < std::size_t(settings.ransac.min_inliers)) continue;
+    if (members.size() < 3) {  // too few pairs to speak for or against a pose
+      inliers.insert(inliers.end(), members.begin(), members.end());
+      continue;
+    }
     const ViewConsensus consensus = consensusOfView(codebook, view, votes, members, settings.ransac);
     if (consensus.votes.size() < std::size_t(settings.ransac.min_inliers)) continue;
     inliers.insert(inliers.end(), consensus.votes.begin(), consensus.votes.end());

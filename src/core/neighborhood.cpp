@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/neighborhood.hpp"
 
+#include <cmath>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/neighborhood.cpp"
 #include <hwy/foreach_target.h>
@@ -57,6 +59,21 @@ void Neighborhood::gather(const Surface& surface, const Eigen::Vector3f& center,
   }
   size = 0;
   for (const auto& run : runs) size = HWY_DYNAMIC_DISPATCH(gatherRun)(surface, center.data(), radius, run, *this, size);
+}
+
+void Neighborhood::keepFacing(float min_cosine, float core_radius) {
+  Eigen::Vector3f own = Eigen::Vector3f::Zero();
+  for (std::size_t i = 0; i < size; ++i) {
+    if (distance[i] <= core_radius && !std::isnan(nx[i])) own += Eigen::Vector3f(nx[i], ny[i], nz[i]);
+  }
+  own.normalize();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (!(own.dot(Eigen::Vector3f(nx[i], ny[i], nz[i])) >= min_cosine)) continue;
+    for (auto* array : {&x, &y, &z, &distance, &nx, &ny, &nz}) (*array)[kept] = (*array)[i];
+    index[kept++] = index[i];
+  }
+  size = kept;
 }
 
 }  // namespace sks

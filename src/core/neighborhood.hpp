@@ -20,6 +20,10 @@ struct Neighborhood {
 
   /// Replaces the content by the points within `radius` of `center`, in order of their index. SIMD, runtime dispatch.
   void gather(const Surface& surface, const Eigen::Vector3f& center, float radius);
+
+  /// Drops the points whose normal has a cosine below `min_cosine` with the mean normal of those within `core_radius`;
+  /// points without a normal too.
+  void keepFacing(float min_cosine, float core_radius);
 };
 
 }  // namespace sks

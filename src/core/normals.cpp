@@ -11,6 +11,7 @@ namespace sks {
 
 void estimateNormals(Surface& surface, const SurfaceSettings& settings, Orientation orientation, int threads) {
   const std::size_t n = surface.size();
+  surface.orientation = orientation;
   for (auto* axis : {&surface.nx, &surface.ny, &surface.nz}) axis->assign(n + PointGrid::simd_padding, 0.0f);
   constexpr std::size_t chunk = 512;
 #pragma omp parallel for schedule(dynamic) num_threads(threads)

@@ -59,14 +59,14 @@ void addShapeHistogram(const Neighborhood& n, const ShotSupport& support, float*
   }
 }
 
-void addColorHistogram(const Surface& surface, const Neighborhood& n, const ShotSupport& support, float radius,
+void addColorHistogram(const Surface& surface, const Neighborhood& n, const ShotSupport& support, float core_radius,
                        float* histogram) {
   constexpr int steps = 30;
   std::array<float, 3> own{};
   std::size_t count = 0, nearest = 0;
   for (std::size_t i = 0; i < n.size; ++i) {
     if (n.distance[i] < n.distance[nearest]) nearest = i;
-    if (n.distance[i] > 0.2f * radius) continue;
+    if (n.distance[i] > core_radius) continue;
     ++count;
     for (int k = 0; k < 3; ++k) own[k] += surface.color[n.index[i]][k];
   }

@@ -10,9 +10,9 @@ namespace sks {
 void addShapeHistogram(const Neighborhood& neighborhood, const ShotSupport& support, float* histogram);
 
 /// Adds CSHOT's 32 histograms of the CIELab distance to the keypoint's colour to `histogram` (992 bins). The colour of
-/// a keypoint, a centroid, is the mean of the neighbours within a fifth of the radius, or that of the nearest.
+/// a keypoint, a centroid, is the mean of the neighbours within `core_radius`, or that of the nearest.
 void addColorHistogram(const Surface& surface, const Neighborhood& neighborhood, const ShotSupport& support,
-                       float radius, float* histogram);
+                       float core_radius, float* histogram);
 
 /// Scales to unit L2 norm; false if all bins are 0.
 bool normalize(float* histogram, std::size_t size);
