@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifdef SKS_EXECUTABLE  // not where the command line is left out of the build
+
+#include <array>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include <sks_detector/file.hpp>
+
+#include "bumps.hpp"
+#include "error_of.hpp"
+#include "temporary_folder.hpp"
+#include "tools/point_image.hpp"
+#include "tools/render.hpp"
+
+namespace sks::tools {
+namespace {
+
+constexpr Rgb magenta{255, 0, 255};
+
+/// A square of 0.4 m across the z axis.
+Cloud square(float z, Rgb color) {
+  Cloud cloud;
+  for (float x = -0.2f; x <= 0.2f; x += 0.005f) {
+    for (float y = -0.2f; y <= 0.2f; y += 0.005f) {
+      cloud.points.emplace_back(x, y, z);
+      cloud.colors.push_back(color);
+    }
+  }
+  cloud.width = std::uint32_t(cloud.points.size());
+  return cloud;
+}
+
+void append(Cloud& cloud, const Cloud& other) {
+  cloud.points.insert(cloud.points.end(), other.points.begin(), other.points.end());
+  cloud.colors.insert(cloud.colors.end(), other.colors.begin(), other.colors.end());
+  cloud.width = std::uint32_t(cloud.points.size());
+}
+
+cv::Vec3b at(const cv::Mat& image, const cv::Point2d& pixel) {
+  return image.at<cv::Vec3b>(int(std::lround(pixel.y)), int(std::lround(pixel.x)));
+}
+
+std::size_t count(const cv::Mat& image, Rgb color) {
+  const cv::Vec3b wanted(color.b, color.g, color.r);
+  std::size_t found = 0;
+  for (int row = 0; row < image.rows; ++row) {
+    for (int column = 0; column < image.cols; ++column) found += image.at<cv::Vec3b>(row, column) == wanted;
+  }
+  return found;
+}
+
+cv::Mat saved(const Picture& picture) {
+  const test::TemporaryFolder folder;
+  picture.save(folder.path("p.png"));
+  return cv::imread(folder.path("p.png"));
+}
+
+}  // namespace
+
+TEST(ViewCamera, LooksFromTheSensorAndFitsThePoints) {
+  const cv::Size size(400, 300);
+  const ViewCamera camera(square(1, magenta), size);
+  EXPECT_TRUE(camera.toCamera({0.1, 0.05, 1}).isApprox(Eigen::Vector3d(0.1, 0.05, 1)));
+  const cv::Point2d low = camera.pixel(camera.toCamera({-0.2, -0.2, 1}));
+  const cv::Point2d high = camera.pixel(camera.toCamera({0.2, 0.2, 1}));
+  EXPECT_NEAR(0.5 * (low.x + high.x), 200, 3);
+  EXPECT_NEAR(0.5 * (low.y + high.y), 150, 3);
+  EXPECT_NEAR(high.y - low.y, 0.94 * 300, 6);
+  EXPECT_NEAR(high.x - low.x, high.y - low.y, 6);
+  EXPECT_TRUE(camera.ray(low.x, low.y).isApprox(Eigen::Vector3d(-0.2, -0.2, 1), 1e-6));
+}
+
+TEST(ViewCamera, FollowsTheConventionOfTheCloud) {
+  // Camera that looks along -z: x right, y up.
+  const ViewCamera graphics(square(-1, magenta), {400, 300});
+  const cv::Point2d up = graphics.pixel(graphics.toCamera({0, 0.1, -1}));
+  const cv::Point2d right = graphics.pixel(graphics.toCamera({0.1, 0, -1}));
+  const cv::Point2d middle = graphics.pixel(graphics.toCamera({0, 0, -1}));
+  EXPECT_LT(up.y, middle.y - 10);
+  EXPECT_GT(right.x, middle.x + 10);
+
+  // Sensor elsewhere, looking along -x.
+  Cloud cloud = square(0, magenta);
+  cloud.sensor_origin = {2, 0, 0.1f};
+  const ViewCamera elsewhere(cloud, {400, 300});
+  EXPECT_NEAR(elsewhere.toCamera(Eigen::Vector3d::Zero()).z(), Eigen::Vector3d(2, 0, 0.1).norm(), 0.01);
+
+  // A full model around the origin is seen from outside.
+  Cloud model = square(0.1f, magenta);
+  append(model, square(-0.1f, magenta));
+  const ViewCamera outside(model, {400, 300});
+  for (const Eigen::Vector3f& point : model.points) EXPECT_GT(outside.toCamera(point.cast<double>()).z(), 0.1);
+}
+
+TEST(PointImage, NearPointsHideFarOnes) {
+  const Rgb red{200, 10, 10}, green{10, 200, 10};
+  Cloud cloud = square(1, red);
+  append(cloud, square(1.5f, green));
+  const cv::Size size(400, 300);
+  const ViewCamera camera(cloud, size);
+  const cv::Mat image = renderPoints(cloud, camera, size);
+  EXPECT_EQ(at(image, camera.pixel(camera.toCamera({0, 0, 1.5}))), cv::Vec3b(red.b, red.g, red.r));
+  EXPECT_EQ(count(image, green), 0u);
+  EXPECT_GT(count(image, red), 70000u);  // no holes
+}
+
+TEST(PointImage, WithoutColourSlopesAreDarker) {
+  Cloud cloud;
+  for (float x = -0.2f; x <= 0.2f; x += 0.002f) {
+    for (float y = -0.2f; y <= 0.2f; y += 0.002f) cloud.points.emplace_back(x, y, x < 0 ? 1.0f : 1.0f + 2 * x);
+  }
+  cloud.width = std::uint32_t(cloud.points.size());
+  const cv::Size size(400, 300);
+  const ViewCamera camera(cloud, size);
+  const cv::Mat image = renderPoints(cloud, camera, size);
+  const cv::Vec3b flat = at(image, camera.pixel(camera.toCamera({-0.1, 0, 1})));
+  const cv::Vec3b slope = at(image, camera.pixel(camera.toCamera({0.05, 0, 1.1})));
+  EXPECT_GT(flat[1], slope[1] + 30);
+}
+
+TEST(PointImage, CloudsWithoutAPointGiveTheBackground) {
+  Cloud cloud;
+  cloud.points.emplace_back(std::nanf(""), 0, 0);
+  cloud.width = 1;
+  for (const Cloud& each : {Cloud(), cloud}) {
+    const cv::Mat image = renderPoints(each, ViewCamera(each, {40, 30}), {40, 30});
+    EXPECT_EQ(image.at<cv::Vec3b>(15, 20), image.at<cv::Vec3b>(0, 0));
+  }
+}
+
+TEST(Picture, DrawsBoxAxesAndLabelWhereTheyBelong) {
+  const Cloud cloud = square(1, {200, 200, 200});
+  Detection detection;
+  detection.object = "mario";
+  detection.score = 0.875;
+  detection.T_scene_box.translation() = Eigen::Vector3d(0.05, 0, 1);
+  detection.box_size = Eigen::Vector3d(0.1, 0.2, 0.001);
+  Picture picture(cloud, {800, 600});
+  picture.drawDetection(detection, magenta);
+  const cv::Mat image = saved(picture);
+  const ViewCamera camera(cloud, {800, 600});
+  const cv::Vec3b box_color(magenta.b, magenta.g, magenta.r);
+  for (const double side : {-0.05, 0.05}) {
+    EXPECT_EQ(at(image, camera.pixel({0.05 + side, 0.03, 1})), box_color);
+    EXPECT_EQ(at(image, camera.pixel({0.05, 2 * side, 1})), box_color);
+  }
+  const cv::Vec3b x_axis = at(image, camera.pixel({0.08, 0, 1})), y_axis = at(image, camera.pixel({0.05, 0.05, 1}));
+  EXPECT_TRUE(x_axis[2] > 200 && x_axis[0] < 100) << x_axis;
+  EXPECT_TRUE(y_axis[1] > 200 && y_axis[2] < 100) << y_axis;
+  const cv::Point2d above = camera.pixel({0.05, -0.1, 1}) - cv::Point2d(0, 10);
+  EXPECT_EQ(at(image, {above.x, above.y}), box_color);  // the label's plate
+}
+
+TEST(Picture, LabelsKeepClearOfEachOther) {
+  const Cloud cloud = square(1, {200, 200, 200});
+  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
+  place.translation().z() = 1;
+  const Eigen::Vector3d size = Eigen::Vector3d::Constant(0.1);
+  Picture one(cloud, {800, 600}), two(cloud, {800, 600});
+  one.drawLabel(place, size, "object", magenta);
+  for (int i = 0; i < 2; ++i) two.drawLabel(place, size, "object", magenta);
+  EXPECT_EQ(count(saved(two), magenta), 2 * count(saved(one), magenta));
+}
+
+TEST(Picture, WhatLiesBehindTheCameraIsLeftOut) {
+  const Cloud cloud = square(1, {200, 200, 200});
+  const Picture empty(cloud, {200, 150});
+  Picture picture(cloud, {200, 150});
+  Eigen::Isometry3d behind = Eigen::Isometry3d::Identity();
+  behind.translation().z() = -2;
+  picture.drawBox(behind, Eigen::Vector3d::Ones(), magenta);
+  picture.drawCross(behind.translation(), magenta);
+  picture.drawLabel(behind, Eigen::Vector3d::Ones(), "behind", magenta);
+  EXPECT_EQ(cv::norm(saved(picture), saved(empty), cv::NORM_INF), 0);
+  // A long box around the camera is cut at it.
+  picture.drawBox(Eigen::Isometry3d::Identity(), {0.2, 0.2, 1.9}, magenta);
+  EXPECT_GT(count(saved(picture), magenta), 0u);
+}
+
+TEST(Picture, PaletteColoursDiffer) {
+  for (std::size_t i = 0; i < 8; ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const Rgb a = paletteColor(i), b = paletteColor(k);
+      EXPECT_GT(std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b), 60) << i << " and " << k;
+    }
+  }
+}
+
+TEST(Picture, PathsAreCheckedBeforehand) {
+  EXPECT_EQ(test::errorOf(ErrorCode::bad_usage, [] { checkPicturePath("scene.gif"); }),
+            "cannot tell the kind of picture from 'scene.gif'; let it end in .png or .jpg");
+  EXPECT_EQ(test::errorOf(ErrorCode::bad_file, [] { checkPicturePath("/none/scene.PNG"); }),
+            "cannot write '/none/scene.PNG': the folder /none does not exist; create it first");
+}
+
+}  // namespace sks::tools
+
+#endif
