@@ -150,7 +150,9 @@ TEST_F(CloudIo, RoundTripKeepsEverything) {
     ASSERT_EQ(back.size(), cloud.size());
     ASSERT_EQ(back.colors.size(), cloud.colors.size());
     EXPECT_EQ(std::memcmp(back.points.data(), cloud.points.data(), cloud.size() * sizeof(Eigen::Vector3f)), 0);
-    EXPECT_EQ(std::memcmp(back.colors.data(), cloud.colors.data(), cloud.colors.size() * sizeof(sks::Rgb)), 0);
+    for (std::size_t i = 0; i < cloud.colors.size(); ++i) {
+      EXPECT_EQ(std::memcmp(&back.colors[i], &cloud.colors[i], sizeof(sks::Rgb)), 0) << i;
+    }
   }
   EXPECT_EQ(folder_.fileCount(), 1u);
 }
