@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/point_grid.hpp>
+
+#include <algorithm>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "synthetic.hpp"
+
+namespace {
+
+using Points = std::vector<Eigen::Vector3f>;
+
+/// Indices into the original points, ascending.
+std::vector<std::uint32_t> neighbors(const sks::PointGrid& grid, const Eigen::Vector3f& center, float radius) {
+  std::vector<sks::PointGrid::Run> runs;
+  std::vector<std::uint32_t> found;
+  std::uint32_t previous = 0;
+  grid.forEachNeighbor(center, radius, runs, [&](std::uint32_t i, float squared) {
+    EXPECT_TRUE(found.empty() || i > previous) << "not in order of the index";
+    EXPECT_NEAR(squared, (grid.point(i) - center).squaredNorm(), 1e-5f * radius * radius);
+    previous = i;
+    found.push_back(grid.source[i]);
+  });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+std::vector<std::uint32_t> bruteForce(const Points& points, const Eigen::Vector3f& center, float radius) {
+  std::vector<std::uint32_t> found;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float dx = points[i].x() - center.x(), dy = points[i].y() - center.y(), dz = points[i].z() - center.z();
+    if (dx * dx + dy * dy + dz * dz <= radius * radius) found.push_back(std::uint32_t(i));
+  }
+  return found;
+}
+
+void expectSameNeighbors(const Points& points, double cell, const Points& centers, float radius) {
+  const sks::PointGrid grid(points, cell);
+  ASSERT_EQ(grid.size(), points.size());
+  for (const auto& center : centers) {
+    EXPECT_EQ(neighbors(grid, center, radius), bruteForce(points, center, radius))
+        << "cell " << cell << ", radius " << radius << ", center " << center.transpose();
+  }
+}
+
+}  // namespace
+
+struct PointGridCase {
+  double cell;
+  float radius;
+};
+
+class PointGridNeighbors : public testing::TestWithParam<PointGridCase> {};
+
+TEST_P(PointGridNeighbors, EqualBruteForce) {
+  const Points points = sks::test::randomCloud(3000, 0.2f, 3).points;
+  Points centers = sks::test::randomCloud(60, 0.25f, 4).points;
+  centers.insert(centers.end(), points.begin(), points.begin() + 40);
+  expectSameNeighbors(points, GetParam().cell, centers, GetParam().radius);
+}
+
+INSTANTIATE_TEST_SUITE_P(CellsAndRadii, PointGridNeighbors,
+                         testing::Values(PointGridCase{0.01, 0.01f}, PointGridCase{0.01, 0.05f},
+                                         PointGridCase{0.05, 0.01f}, PointGridCase{0.003, 0.02f},
+                                         PointGridCase{1.0, 0.03f}, PointGridCase{0.02, 1.0f},
+                                         PointGridCase{0.0175, 0.0241f}));
+
+TEST(PointGrid, PointsAtTheRimAreNeighbors) {
+  Points points;
+  for (int i = -8; i <= 8; ++i) {
+    for (int k = -8; k <= 8; ++k) points.emplace_back(0.0f, float(i) * 0.125f, float(k) * 0.125f);
+  }
+  for (const float radius : {0.125f, 0.25f, 0.375f}) {  // exact in binary: the rim itself
+    expectSameNeighbors(points, 0.125, points, radius);
+    expectSameNeighbors(points, 0.1, points, radius);
+  }
+}
+
+TEST(PointGrid, OutliersFarAwayLoseNothing) {
+  Points points = sks::test::randomCloud(2000, 0.1f, 5).points;
+  for (const Eigen::Vector3f& far :
+       {Eigen::Vector3f(15, 15, 15), Eigen::Vector3f(-15, -15, 15), Eigen::Vector3f(0, 400, -400)}) {
+    points.push_back(far);
+  }
+  Points centers(points.end() - 30, points.end());
+  expectSameNeighbors(points, 0.001, centers, 0.05f);
+  expectSameNeighbors(points, 0.001, {{1e6f, 0, 0}, {0, -1e6f, 0}, {0, 0, 1e6f}}, 0.05f);
+}
+
+TEST(PointGrid, OnePointAndNone) {
+  const Points one{{0.3f, -0.2f, 1.5f}};
+  expectSameNeighbors(one, 0.01, {one[0], {0.3f, -0.2f, 1.51f}, {0, 0, 0}}, 0.02f);
+  const sks::PointGrid empty(Points{}, 0.01);
+  EXPECT_EQ(empty.size(), 0u);
+  EXPECT_TRUE(neighbors(empty, Eigen::Vector3f::Zero(), 1).empty());
+  EXPECT_TRUE(neighbors(sks::PointGrid(), Eigen::Vector3f::Zero(), 1).empty());
+}
+
+TEST(PointGrid, IdenticalPointsAreAllFoundInTheirOrder) {
+  const Points same(50, Eigen::Vector3f(1, 2, 3));
+  expectSameNeighbors(same, 0.01, {same[0]}, 0.001f);
+  const sks::PointGrid grid(same, 0.01);
+  for (std::uint32_t i = 0; i < 50; ++i) EXPECT_EQ(grid.source[i], i);
+}
+
+TEST(PointGrid, IsAPermutationPaddedWithInfinity) {
+  const Points points = sks::test::randomCloud(500, 0.2f, 6).points;
+  const sks::PointGrid grid(points, 0.02);
+  std::vector<char> seen(points.size(), 0);
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    EXPECT_EQ(grid.point(i), points[grid.source[i]]);
+    seen[grid.source[i]] = 1;
+  }
+  EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), 500);
+  EXPECT_EQ(grid.positions().size(), points.size());
+  for (const auto* axis : {&grid.x, &grid.y, &grid.z}) {
+    ASSERT_EQ(axis->size(), points.size() + sks::PointGrid::simd_padding);
+    for (std::size_t i = points.size(); i < axis->size(); ++i) {
+      EXPECT_EQ((*axis)[i], std::numeric_limits<float>::infinity());
+    }
+  }
+}
