@@ -2,69 +2,143 @@
 #include "core/bound_cascade.hpp"
 
 #include <algorithm>
-#include <map>
-
-#include <sks_detector/descriptors.hpp>
+#include <limits>
+#include <random>
 
 namespace sks {
 namespace {
 
-/// One level for (C)SHOT: neighbouring sectors in pairs, husks kept apart or not, and value bins cut at `cuts`.
-/// Measured on Kinect scenes: the mass lies in few value bins, so these cuts lose least.
-struct Level {
-  bool merge_husks;
-  std::vector<std::size_t> shape_cuts, color_cuts;  ///< first value bin of each group
+constexpr std::size_t sample_pairs = 192;  // a multiple of `lanes`
+constexpr std::size_t lanes = 16;          // sums kept apart, for the compiler to vectorize
+
+/// Greedy agglomeration of bins, on sampled pairs of words.
+class Agglomeration {
+public:
+  explicit Agglomeration(const DescriptorMatrix& words);
+
+  std::size_t groups() const { return alive_.size(); }
+  void mergeCheapest();
+  BinMerge merge() const;
+
+private:
+  /// One group of bins: what each sampled pair has in it, and what that adds to the pair's distance.
+  struct Group {
+    std::vector<float> a, b, term;
+  };
+
+  /// What the sampled pairs lose of their distance if two groups become one.
+  float cost(std::size_t i, std::size_t j) const;
+  void findPartner(std::size_t i);
+
+  std::vector<Group> groups_;
+  std::vector<std::size_t> alive_;    // groups that stand for themselves, ascending
+  std::vector<std::size_t> leader_;   // of each bin: the group that holds it
+  std::vector<std::size_t> partner_;  // of each group: the later one that it is merged with at least cost
+  std::vector<float> partner_cost_;
 };
 
-std::vector<std::size_t> eachBin(std::size_t bins) {
-  std::vector<std::size_t> cuts(bins);
-  for (std::size_t i = 0; i < bins; ++i) cuts[i] = i;
-  return cuts;
+float chiTerm(float a, float b) {
+  return (a - b) * (a - b) / (a + b + 1e-30f);
 }
 
-std::size_t part(const std::vector<std::size_t>& cuts, std::size_t value) {
-  return std::size_t(std::upper_bound(cuts.begin(), cuts.end(), value) - cuts.begin()) - 1;
-}
-
-BinMerge shotMerge(const Level& level, std::size_t descriptor_size) {
-  constexpr std::size_t shape_bins = 11, color_bins = 31;  // value bins of a volume
-  BinMerge merge;
-  std::map<std::vector<std::size_t>, std::uint16_t> ids;
-  for (std::size_t i = 0; i < descriptor_size; ++i) {
-    const bool color = i >= shot_size;
-    const std::size_t bins = color ? color_bins : shape_bins, local = color ? i - shot_size : i;
-    const std::size_t volume = local / bins, value = local % bins;
-    const std::size_t sector_pair = volume / 8, husk = volume / 2 % 2, half = volume % 2;
-    const std::vector<std::size_t> key{color, sector_pair, level.merge_husks ? 0 : husk, half,
-                                       part(color ? level.color_cuts : level.shape_cuts, value)};
-    merge.group.push_back(ids.emplace(key, std::uint16_t(ids.size())).first->second);
+Agglomeration::Agglomeration(const DescriptorMatrix& words)
+    : groups_(words.cols()), leader_(words.cols()), partner_(words.cols()), partner_cost_(words.cols()) {
+  std::mt19937 random(1);
+  std::vector<const float*> first, second;
+  std::vector<float> weight;  // near and far pairs count alike
+  for (std::size_t s = 0; s < sample_pairs; ++s) {
+    first.push_back(words.row(random() % words.rows()));
+    second.push_back(words.row(random() % words.rows()));
+    weight.push_back(1.0f / (chiSquaredFast(first[s], second[s], words.cols()) + 1e-6f));
   }
-  merge.setSize(ids.size());
-  return merge;
+  for (std::size_t bin = 0; bin < words.cols(); ++bin) {
+    Group& group = groups_[bin];
+    for (std::size_t s = 0; s < sample_pairs; ++s) {
+      // Terms are homogeneous: the pair's weight can go into its values.
+      group.a.push_back(first[s][bin] * weight[s]);
+      group.b.push_back(second[s][bin] * weight[s]);
+      group.term.push_back(chiTerm(group.a[s], group.b[s]));
+    }
+    alive_.push_back(bin);
+    leader_[bin] = bin;
+  }
+  for (const std::size_t i : alive_) findPartner(i);
 }
 
-BinMerge runMerge(std::size_t run, std::size_t descriptor_size) {
+float Agglomeration::cost(std::size_t i, std::size_t j) const {
+  const Group &p = groups_[i], &q = groups_[j];
+  float sums[lanes] = {};
+  for (std::size_t s = 0; s < sample_pairs; s += lanes) {
+    for (std::size_t k = 0; k < lanes; ++k) {
+      sums[k] += p.term[s + k] + q.term[s + k] - chiTerm(p.a[s + k] + q.a[s + k], p.b[s + k] + q.b[s + k]);
+    }
+  }
+  float total = 0;
+  for (const float sum : sums) total += sum;
+  return total;
+}
+
+void Agglomeration::findPartner(std::size_t i) {
+  partner_cost_[i] = std::numeric_limits<float>::infinity();
+  for (auto j = std::upper_bound(alive_.begin(), alive_.end(), i); j != alive_.end(); ++j) {
+    const float c = cost(i, *j);
+    if (c < partner_cost_[i]) {
+      partner_cost_[i] = c;
+      partner_[i] = *j;
+    }
+  }
+}
+
+void Agglomeration::mergeCheapest() {
+  const auto cheaper = [&](std::size_t a, std::size_t b) { return partner_cost_[a] < partner_cost_[b]; };
+  const std::size_t kept = *std::min_element(alive_.begin(), alive_.end(), cheaper), gone = partner_[kept];
+  Group &group = groups_[kept], &other = groups_[gone];
+  for (std::size_t s = 0; s < sample_pairs; ++s) {
+    group.a[s] += other.a[s];
+    group.b[s] += other.b[s];
+    group.term[s] = chiTerm(group.a[s], group.b[s]);
+  }
+  std::replace(leader_.begin(), leader_.end(), gone, kept);
+  alive_.erase(std::lower_bound(alive_.begin(), alive_.end(), gone));
+  for (const std::size_t i : alive_) {
+    const bool stale = i == kept || (i < gone && (partner_[i] == kept || partner_[i] == gone));
+    if (stale) {
+      findPartner(i);
+    } else if (i < kept) {
+      const float c = cost(i, kept);
+      if (c < partner_cost_[i]) {
+        partner_cost_[i] = c;
+        partner_[i] = kept;
+      }
+    }
+  }
+}
+
+BinMerge Agglomeration::merge() const {
   BinMerge merge;
-  for (std::size_t i = 0; i < descriptor_size; ++i) merge.group.push_back(std::uint16_t(i / run));
-  merge.setSize((descriptor_size + run - 1) / run);
+  merge.size = alive_.size();
+  for (const std::size_t leader : leader_) {
+    merge.group.push_back(std::uint16_t(std::lower_bound(alive_.begin(), alive_.end(), leader) - alive_.begin()));
+  }
   return merge;
 }
 
 }  // namespace
 
 void BinMerge::apply(const float* descriptor, float* sums) const {
-  std::fill(sums, sums + padded, 0.0f);
+  std::fill(sums, sums + padded(), 0.0f);
   for (std::size_t i = 0; i < group.size(); ++i) sums[group[i]] += descriptor[i];
 }
 
-std::vector<BinMerge> boundCascade(std::size_t descriptor_size) {
-  if (descriptor_size != shot_size && descriptor_size != cshot_size) {
-    return {runMerge(16, descriptor_size), runMerge(4, descriptor_size), runMerge(2, descriptor_size)};
+std::vector<BinMerge> learnBoundCascade(const DescriptorMatrix& words, const std::vector<std::size_t>& sizes) {
+  Agglomeration agglomeration(words);
+  std::vector<BinMerge> levels;
+  for (auto size = sizes.rbegin(); size != sizes.rend(); ++size) {
+    while (agglomeration.groups() > *size) agglomeration.mergeCheapest();
+    levels.push_back(agglomeration.merge());
   }
-  const std::vector<std::size_t> few_colors{0, 2, 5}, some_colors{0, 1, 2, 3, 4, 5, 7, 9, 12, 16, 22};
-  return {shotMerge({true, {0, 5, 8}, few_colors}, descriptor_size),
-          shotMerge({true, eachBin(11), some_colors}, descriptor_size),
-          shotMerge({false, eachBin(11), some_colors}, descriptor_size)};
+  std::reverse(levels.begin(), levels.end());
+  return levels;
 }
 
 }  // namespace sks

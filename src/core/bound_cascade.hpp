@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <sks_detector/descriptors.hpp>
+
 #include "core/chi_squared.hpp"
 
 namespace sks {
@@ -11,23 +13,21 @@ namespace sks {
 /// How the bins of a descriptor are merged into fewer: bin i goes to group[i].
 ///
 /// (a-b)^2/(a+b) is jointly convex and homogeneous, so the chi squared distance of sums over groups of bins is never
-/// above that of the bins: an exact lower bound at a fraction of the cost.
+/// above that of the bins: an exact lower bound at a fraction of the cost, whatever the groups.
 struct BinMerge {
   std::vector<std::uint16_t> group;
-  std::size_t size = 0;    ///< number of groups
-  std::size_t padded = 0;  ///< the same, rounded up to whole SIMD blocks
+  std::size_t size = 0;  ///< number of groups
 
-  void setSize(std::size_t groups) {
-    size = groups;
-    padded = (groups + block_words - 1) / block_words * block_words;
-  }
+  /// `size` rounded up to whole SIMD blocks.
+  std::size_t padded() const { return (size + block_words - 1) / block_words * block_words; }
 
-  /// Writes the sums of a descriptor, and zeros up to `padded`.
+  /// Writes the sums of a descriptor, and zeros up to `padded()`.
   void apply(const float* descriptor, float* sums) const;
 };
 
-/// A cascade of merges for descriptors of the given size, coarse to fine; every group of one is a union of groups of
-/// the next, so bounds only grow. Sizes that are neither SHOT's nor CSHOT's merge runs of neighbouring bins.
-std::vector<BinMerge> boundCascade(std::size_t descriptor_size);
+/// Merges of the bins of `words` into each of the given numbers of groups (ascending), coarse to fine. Which bins go
+/// together is learned from the words: those whose merging costs pairs of words least of their distance, one merge
+/// after the other. Every group of one level is a union of groups of the next, so bounds only grow. Deterministic.
+std::vector<BinMerge> learnBoundCascade(const DescriptorMatrix& words, const std::vector<std::size_t>& sizes);
 
 }  // namespace sks

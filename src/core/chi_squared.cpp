@@ -56,6 +56,39 @@ void chiSquaredRowsImpl(const float* query, std::size_t bins, const float* table
   }
 }
 
+std::size_t indexOfSmallestImpl(const float* values, std::size_t count) {
+  const hn::ScalableTag<float> d;
+  const std::size_t lanes = hn::Lanes(d);
+  float smallest = values[0];
+  if (count >= lanes) {
+    auto low = hn::LoadU(d, values);
+    for (std::size_t i = lanes; i + lanes <= count; i += lanes) low = hn::Min(low, hn::LoadU(d, values + i));
+    smallest = hn::GetLane(hn::MinOfLanes(d, low));
+  }
+  for (std::size_t i = count - count % lanes; i < count; ++i) smallest = values[i] < smallest ? values[i] : smallest;
+  std::size_t i = 0;
+  const auto wanted = hn::Set(d, smallest);
+  while (i + lanes <= count && hn::AllFalse(d, hn::Eq(hn::LoadU(d, values + i), wanted))) i += lanes;
+  while (i + 1 < count && values[i] != smallest) ++i;
+  return i;
+}
+
+std::size_t selectUpToImpl(float limit, const float* values, std::size_t count, std::uint32_t* indices) {
+  const hn::ScalableTag<float> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto highest = hn::Set(d, limit);
+  std::size_t selected = 0, i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    const auto low = hn::RebindMask(du, hn::Le(hn::LoadU(d, values + i), highest));
+    selected += hn::CompressStore(hn::Iota(du, std::uint32_t(i)), low, du, indices + selected);
+  }
+  for (; i < count; ++i) {
+    if (values[i] <= limit) indices[selected++] = std::uint32_t(i);
+  }
+  return selected;
+}
+
 float chiSquaredFastImpl(const float* a, const float* b, std::size_t size) {
   const hn::ScalableTag<float> d;
   const std::size_t lanes = hn::Lanes(d);
@@ -84,6 +117,8 @@ namespace sks {
 
 HWY_EXPORT(chiSquaredBlocksImpl);
 HWY_EXPORT(chiSquaredRowsImpl);
+HWY_EXPORT(indexOfSmallestImpl);
+HWY_EXPORT(selectUpToImpl);
 HWY_EXPORT(chiSquaredFastImpl);
 
 void chiSquaredBlocks(const float* query, std::size_t bins, const float* table, std::size_t blocks, float* distances) {
@@ -93,6 +128,14 @@ void chiSquaredBlocks(const float* query, std::size_t bins, const float* table, 
 void chiSquaredRows(const float* query, std::size_t bins, const float* table, const std::uint32_t* rows,
                     std::size_t count, float* distances) {
   HWY_DYNAMIC_DISPATCH(chiSquaredRowsImpl)(query, bins, table, rows, count, distances);
+}
+
+std::size_t indexOfSmallest(const float* values, std::size_t count) {
+  return HWY_DYNAMIC_DISPATCH(indexOfSmallestImpl)(values, count);
+}
+
+std::size_t selectUpTo(float limit, const float* values, std::size_t count, std::uint32_t* indices) {
+  return HWY_DYNAMIC_DISPATCH(selectUpToImpl)(limit, values, count, indices);
 }
 
 float chiSquaredFast(const float* a, const float* b, std::size_t size) {

@@ -18,6 +18,13 @@ void chiSquaredBlocks(const float* query, std::size_t bins, const float* table, 
 void chiSquaredRows(const float* query, std::size_t bins, const float* table, const std::uint32_t* rows,
                     std::size_t count, float* distances);
 
+/// Index of the (first) smallest of `count` > 0 values.
+std::size_t indexOfSmallest(const float* values, std::size_t count);
+
+/// Writes the indices of the values that are not above `limit`, ascending, and returns how many; `indices` must have
+/// room for `count` + block_words.
+std::size_t selectUpTo(float limit, const float* values, std::size_t count, std::uint32_t* indices);
+
 /// Chi squared distance in single precision (relative error below 1e-5). SIMD, runtime dispatch.
 float chiSquaredFast(const float* a, const float* b, std::size_t size);
 
