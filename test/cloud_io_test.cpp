@@ -196,6 +196,50 @@ TEST_F(CloudIo, BinaryPlyWithDoubles) {
   EXPECT_EQ(cloud.points[1], Eigen::Vector3f(4, 5, 6));
 }
 
+TEST_F(CloudIo, PlyListsAndOtherElementsArePassedOver) {
+  const sks::Cloud cloud = read(
+      "ply\nformat ascii 1.0\nobj_info by hand\nelement face 1\nproperty list uchar int vertex_indices\n"
+      "element vertex 2\nproperty float z\nproperty list uchar float links\nproperty float y\nproperty float x\n"
+      "element camera 1\nproperty float view_px\nproperty float view_py\nproperty float view_pz\nend_header\n"
+      "2 0 1\n3 0 2 1\n6 2 0.5 0.5 5 4\n7 8 9\n");
+  ASSERT_EQ(cloud.size(), 2u);
+  EXPECT_EQ(cloud.points[0], Eigen::Vector3f(1, 2, 3));
+  EXPECT_EQ(cloud.points[1], Eigen::Vector3f(4, 5, 6));
+  EXPECT_EQ(cloud.sensor_origin, Eigen::Vector3f(7, 8, 9));
+}
+
+TEST_F(CloudIo, BigEndianPly) {
+  std::string body;
+  for (const float value : {1.0f, 2.0f, 3.0f}) {
+    const std::string little = bytes(value);
+    body.append(little.rbegin(), little.rend());
+  }
+  const sks::Cloud cloud = read(
+      "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+      "end_header\n" +
+      body);
+  ASSERT_EQ(cloud.size(), 1u);
+  EXPECT_EQ(cloud.points[0], Eigen::Vector3f(1, 2, 3));
+}
+
+TEST_F(CloudIo, PlyHeadersThatCannotBeUsed) {
+  const auto error = [&](const std::string& properties) {
+    return readError("ply\nformat ascii 1.0\nelement vertex 1\n" + properties + "end_header\n1 2 3 4 5 6\n");
+  };
+  EXPECT_EQ(error("property float x\nproperty float y\n"), "its vertices have no property 'z'");
+  EXPECT_EQ(error("property int x\nproperty float y\nproperty float z\n"),
+            "property 'x' of its vertices holds integers; coordinates must be float or double");
+  EXPECT_EQ(error("property half x\n"), "its PLY header has a property of the unknown type 'half'");
+  EXPECT_EQ(error("property float\n"), "its PLY header has a property without a type or name");
+  const std::string position = "property float x\nproperty float y\nproperty float z\n";
+  EXPECT_EQ(error(position + "property float red\nproperty float green\nproperty float blue\n"),
+            "property 'red' of its vertices must be uchar");
+  EXPECT_EQ(readError("ply\nformat ascii 1.0\nelement face 0\nend_header\n"), "its PLY header has no element vertex");
+  EXPECT_EQ(readError("ply\nelement vertex 1\n" + position + "end_header\n1 2 3\n"),
+            "its PLY header has no line format");
+  EXPECT_EQ(readError("ply\nformat text 1.0\nend_header\n"), "its PLY header has the unknown format 'text'");
+}
+
 TEST_F(CloudIo, MissingFilesAndFolders) {
   EXPECT_EQ(sks::test::errorOf(sks::ErrorCode::bad_file, [&] { sks::readCloud(folder_.path("none.pcd")); }),
             "cannot read cloud '" + folder_.path("none.pcd") + "': No such file or directory");

@@ -36,18 +36,14 @@ Format formatOf(std::istream& file) {
   return words[0][0] == '#' || words[0] == "VERSION" || words[0] == "FIELDS" ? Format::pcd : Format::foreign;
 }
 
-Cloud read(const std::string& path, std::ifstream& file, std::uint64_t size, double scale) {
+Cloud read(std::ifstream& file, std::uint64_t size, double scale) {
   switch (formatOf(file)) {
     case Format::pcd:
       return readPcd(file, size, scale);
-    case Format::ply: {
-      const std::uint64_t points = checkPlyHeader(file, size);
-      Cloud cloud = points > 0 ? readPly(path, scale) : Cloud{};
-      if (cloud.size() != points) fail(path, "its data is truncated or damaged");
-      return cloud;
-    }
+    case Format::ply:
+      return readPly(file, size, scale);
     default:
-      fail(path, size == 0 ? "it is empty" : "it is neither a PCD nor a PLY file");
+      throw Error(ErrorCode::bad_data, size == 0 ? "it is empty" : "it is neither a PCD nor a PLY file");
   }
 }
 
@@ -62,11 +58,10 @@ Cloud readCloud(const std::string& path, double scale) {
   std::ifstream file(path, std::ios::binary);
   if (!file) fail(path, std::generic_category().message(errno));
   try {
-    Cloud cloud = read(path, file, size, scale);
-    if (!cloud.sensor_origin.allFinite()) fail(path, "its sensor origin is not finite");
+    Cloud cloud = read(file, size, scale);
+    if (!cloud.sensor_origin.allFinite()) throw Error(ErrorCode::bad_data, "its sensor origin is not finite");
     return cloud;
   } catch (const Error& reason) {
-    if (reason.code() == ErrorCode::bad_file) throw;
     fail(path, reason.what());
   }
 }

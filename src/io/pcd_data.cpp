@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <locale.h>
-#include <algorithm>
 #include <cstdlib>
 #include <cstring>
-
-#include <pcl/io/lzf.h>
 
 #include <sks_detector/error.hpp>
 
 #include "io/header_lines.hpp"
+#include "io/lzf.hpp"
+#include "io/number_text.hpp"
 #include "io/pcd_file.hpp"
 #include "io/point_fields.hpp"
 
@@ -26,17 +25,17 @@ constexpr std::uint64_t best_compression = 88;
 
 /// Writes a number in its binary form; false where the text is no number.
 bool storeNumber(const std::string& text, const PcdField& field, std::uint8_t* to) {
-  static const locale_t c_locale = ::newlocale(LC_ALL_MASK, "C", nullptr);
-  char* end = nullptr;
   if (field.type == 'F') {
-    const double value = ::strtod_l(text.c_str(), &end, c_locale);
+    double value = 0;
+    if (!parseNumber(text, value)) return false;
     const float narrow = float(value);
     std::memcpy(to, field.size == 8 ? static_cast<const void*>(&value) : &narrow, field.size);
-  } else {
-    const long long value =
-        field.type == 'I' ? std::strtoll(text.c_str(), &end, 10) : (long long)(std::strtoull(text.c_str(), &end, 10));
-    std::memcpy(to, &value, field.size);  // the low bytes: little endian
+    return true;
   }
+  char* end = nullptr;
+  const long long value =
+      field.type == 'I' ? std::strtoll(text.c_str(), &end, 10) : (long long)(std::strtoull(text.c_str(), &end, 10));
+  std::memcpy(to, &value, field.size);  // the low bytes: little endian
   return end == text.c_str() + text.size() && !text.empty();
 }
 
@@ -78,10 +77,8 @@ Bytes readCompressed(std::istream& file, const PcdHeader& header, std::uint64_t 
          std::to_string(points * step));
   }
   const Bytes from = readBinary(file, packed);
-  Bytes by_field(unpacked), data(unpacked);
-  if (pcl::lzfDecompress(from.data(), unsigned(packed), by_field.data(), unsigned(unpacked)) != unpacked) {
-    fail("its compressed data is damaged");
-  }
+  Bytes by_field, data(unpacked);
+  if (!decompressLzf(from, unpacked, by_field)) fail("its compressed data is damaged");
   const std::uint8_t* next = by_field.data();
   std::uint64_t offset = 0;
   for (const PcdField& field : header.fields) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <map>
-#include <vector>
 
 #include <sks_detector/error.hpp>
 
@@ -10,64 +10,59 @@
 namespace sks {
 namespace {
 
+using Words = std::vector<std::string>;
+
 [[noreturn]] void fail(const std::string& message) {
   throw Error(ErrorCode::bad_data, "its PLY header " + message);
 }
 
-std::uint64_t typeSize(const std::string& type) {
-  static const std::map<std::string, std::uint64_t> sizes = {
-      {"char", 1},   {"int8", 1},    {"uchar", 1},  {"uint8", 1},  {"short", 2}, {"int16", 2},
-      {"ushort", 2}, {"uint16", 2},  {"int", 4},    {"int32", 4},  {"uint", 4},  {"uint32", 4},
-      {"float", 4},  {"float32", 4}, {"double", 8}, {"float64", 8}};
-  const auto found = sizes.find(type);
-  if (found == sizes.end()) fail("has a property of the unknown type '" + type + "'");
+PointField::Type typeOf(const std::string& name) {
+  static const std::map<std::string, PointField::Type> types = {
+      {"char", PointField::int8},      {"int8", PointField::int8},       {"uchar", PointField::uint8},
+      {"uint8", PointField::uint8},    {"short", PointField::int16},     {"int16", PointField::int16},
+      {"ushort", PointField::uint16},  {"uint16", PointField::uint16},   {"int", PointField::int32},
+      {"int32", PointField::int32},    {"uint", PointField::uint32},     {"uint32", PointField::uint32},
+      {"float", PointField::float32},  {"float32", PointField::float32}, {"double", PointField::float64},
+      {"float64", PointField::float64}};
+  const auto found = types.find(name);
+  if (found == types.end()) fail("has a property of the unknown type '" + name + "'");
   return found->second;
 }
 
-/// What the header says of the vertices.
-struct Vertices {
-  bool ascii = false;
-  std::uint64_t count = 0;
-  std::uint64_t properties = 0;
-  std::uint64_t bytes = 0;  // of one vertex with empty lists
-};
+PlyFormat formatOf(const std::string& name) {
+  const Words names = {"ascii", "binary_little_endian", "binary_big_endian"};
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) fail("has the unknown format '" + name + "'");
+  return PlyFormat(found - names.begin());
+}
 
-Vertices readHeader(std::istream& file) {
-  Vertices vertices;
-  std::string format, element;
-  for (std::vector<std::string> words;;) {
-    if (!readHeaderLine(file, words)) fail("has no line end_header");
-    if (words.empty()) continue;
-    if (words[0] == "end_header") break;
-    if (words[0] == "format" && words.size() > 1) format = words[1];
-    if (words[0] == "element") {
-      if (words.size() != 3) fail("has an element without a name or count");
-      element = words[1];
-      const std::uint64_t count = headerNumber(words[2], "element " + element);
-      if (element == "vertex") vertices.count = count;
-    }
-    if (words[0] == "property" && element == "vertex") {
-      if (words.size() < 3) fail("has a property without a type or name");
-      vertices.properties += 1;
-      vertices.bytes += typeSize(words[1] == "list" ? words[2] : words[1]);
-    }
-  }
-  if (format != "ascii" && format != "binary_little_endian" && format != "binary_big_endian") {
-    fail("has the unknown format '" + format + "'");
-  }
-  vertices.ascii = format == "ascii";
-  return vertices;
+PlyProperty propertyOf(const Words& words) {
+  if (words.size() == 3) return {words[2], typeOf(words[1])};
+  if (words.size() == 5 && words[1] == "list") return {words[4], typeOf(words[3]), true, typeOf(words[2])};
+  fail("has a property without a type or name");
 }
 
 }  // namespace
 
-std::uint64_t checkPlyHeader(std::istream& file, std::uint64_t file_size) {
-  const Vertices vertices = readHeader(file);
-  const std::uint64_t there = file_size - std::uint64_t(file.tellg());
-  if (vertices.count > 0 && vertices.properties == 0) fail("has no properties of a vertex");
-  const double each = vertices.ascii ? 2.0 * double(vertices.properties) : double(vertices.bytes);
-  checkHolds(vertices.count, double(vertices.count) * each - (vertices.ascii ? 1 : 0), there);
-  return vertices.count;
+PlyHeader readPlyHeader(std::istream& file) {
+  PlyHeader header;
+  bool has_format = false;
+  for (Words words; words.empty() || words[0] != "end_header";) {
+    if (!readHeaderLine(file, words)) fail("has no line end_header");
+    const std::string keyword = words.empty() ? "" : words[0];
+    if (keyword == "format" && words.size() > 1) {
+      header.format = formatOf(words[1]);
+      has_format = true;
+    } else if (keyword == "element") {
+      if (words.size() != 3) fail("has an element without a name or count");
+      header.elements.push_back({words[1], headerNumber(words[2], "element " + words[1]), {}});
+    } else if (keyword == "property") {
+      if (header.elements.empty()) fail("has a property before the first element");
+      header.elements.back().properties.push_back(propertyOf(words));
+    }
+  }
+  if (!has_format) fail("has no line format");
+  return header;
 }
 
 }  // namespace sks

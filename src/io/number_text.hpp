@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace sks {
+
+/// The number that a whole word of a text file stands for, nan and inf among them, whatever the locale; false if it is
+/// no number.
+bool parseNumber(const std::string& word, double& value);
+
+}  // namespace sks
