@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/matching.hpp>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include <gmock/gmock.h>
+
+#include "core/bound_cascade.hpp"
+#include "error_of.hpp"
+
+using testing::HasSubstr;
+
+namespace {
+
+using Rows = std::vector<std::vector<float>>;
+
+float uniform(std::mt19937& random) {
+  return float(random() >> 8) / float(1 << 24);
+}
+
+std::vector<float> histogram(std::mt19937& random, std::size_t size, double filled = 0.3) {
+  std::vector<float> bins(size, 0.0f);
+  double squares = 0;
+  for (float& bin : bins) {
+    if (uniform(random) < filled) bin = uniform(random) * uniform(random);
+    squares += double(bin) * bin;
+  }
+  for (float& bin : bins) bin /= float(std::sqrt(std::max(squares, 1e-12)));
+  return bins;
+}
+
+Rows histograms(std::size_t count, std::size_t size, std::uint32_t seed, double filled = 0.3) {
+  std::mt19937 random(seed);
+  Rows rows(count);
+  for (auto& row : rows) row = histogram(random, size, filled);
+  return rows;
+}
+
+sks::DescriptorMatrix matrix(const Rows& rows, std::size_t cols) {
+  std::vector<float> values;
+  for (const auto& row : rows) values.insert(values.end(), row.begin(), row.end());
+  return sks::DescriptorMatrix(values, cols);
+}
+
+double plainChiSquared(const std::vector<float>& a, const std::vector<float>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i] + b[i] > 0) sum += (double(a[i]) - b[i]) * (double(a[i]) - b[i]) / (double(a[i]) + b[i]);
+  }
+  return sum;
+}
+
+/// Every match is the first of the nearest words of a plain loop in double precision.
+void expectExact(const Rows& words, const Rows& queries, std::size_t size) {
+  const auto matches = sks::Matcher(matrix(words, size)).match(matrix(queries, size), 2);
+  ASSERT_EQ(matches.size(), queries.size());
+  for (std::size_t q = 0; q < queries.size(); ++q) {
+    std::size_t nearest = 0;
+    double best = std::numeric_limits<double>::infinity();
+    for (std::size_t w = 0; w < words.size(); ++w) {
+      const double distance = plainChiSquared(queries[q], words[w]);
+      if (distance < best) {
+        best = distance;
+        nearest = w;
+      }
+    }
+    EXPECT_EQ(matches[q].descriptor, q);
+    ASSERT_EQ(matches[q].word, nearest) << "query " << q << " of size " << size << " at " << best;
+    EXPECT_NEAR(matches[q].distance, best, 1e-5 * best + 1e-12);
+  }
+}
+
+}  // namespace
+
+TEST(ChiSquared, EqualsTheFormula) {
+  const float a[] = {0.5f, 0, 1, 0}, b[] = {0.25f, 2, 1, 0};
+  EXPECT_DOUBLE_EQ(sks::chiSquared(a, b, 4), 0.0625 / 0.75 + 2);
+  for (const std::size_t size : {1u, 7u, 352u, 1344u}) {
+    const Rows rows = histograms(2, size, 5);
+    EXPECT_DOUBLE_EQ(sks::chiSquared(rows[0].data(), rows[1].data(), size), plainChiSquared(rows[0], rows[1]));
+    EXPECT_EQ(sks::chiSquared(rows[0].data(), rows[0].data(), size), 0);
+  }
+}
+
+class Matching : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(Matching, EqualsThePlainLoopOnRandomHistograms) {  // trap 11
+  for (const std::size_t count : {17u, 400u}) {
+    expectExact(histograms(count, GetParam(), 1), histograms(40, GetParam(), 2), GetParam());
+  }
+}
+
+TEST_P(Matching, EqualsThePlainLoopOnNearDuplicates) {
+  const std::size_t size = GetParam();
+  std::mt19937 random(3);
+  Rows words = histograms(20, size, 4);
+  for (std::size_t i = 0; i < 300; ++i) {  // differ by a few roundings, or by a bit more
+    std::vector<float> word = words[i % 20];
+    for (float& bin : word) bin *= 1 + (i % 2 ? 1e-6f : 1e-3f) * (uniform(random) - 0.5f);
+    words.push_back(word);
+  }
+  Rows queries(words.begin(), words.begin() + 20);
+  for (std::size_t i = 0; i < 20; ++i) {
+    std::vector<float> query = words[i];
+    for (float& bin : query) bin = std::max(0.0f, bin + 0.01f * (uniform(random) - 0.5f));
+    queries.push_back(query);
+  }
+  expectExact(words, queries, size);
+}
+
+TEST_P(Matching, OfEquallyNearWordsTheFirstWins) {
+  Rows words = histograms(50, GetParam(), 6, 1.0);
+  const Rows once = words;
+  words.insert(words.end(), once.begin(), once.end());
+  words.insert(words.end(), once.rbegin(), once.rend());
+  const auto matches = sks::Matcher(matrix(words, GetParam())).match(matrix(once, GetParam()), 1);
+  for (std::size_t i = 0; i < once.size(); ++i) {
+    EXPECT_EQ(matches[i].word, i);
+    EXPECT_EQ(matches[i].distance, 0);
+  }
+  const Rows same(40, once[0]);
+  for (const auto& match : sks::Matcher(matrix(same, GetParam())).match(matrix(once, GetParam()), 1)) {
+    EXPECT_EQ(match.word, 0u);
+  }
+}
+
+TEST_P(Matching, EqualsThePlainLoopOnZeroAndSparseHistograms) {
+  const std::size_t size = GetParam();
+  std::mt19937 random(8);
+  Rows words = histograms(30, size, 9);
+  for (const double filled : {0.01, 0.02, 1.0}) {
+    for (int i = 0; i < 20; ++i) words.push_back(histogram(random, size, filled));
+  }
+  words.insert(words.begin() + 7, std::vector<float>(size, 0.0f));
+  Rows queries = words;
+  for (int i = 0; i < 10; ++i) queries.push_back(histogram(random, size, 0.01));
+  std::vector<float> tiny(size, 0.0f);
+  tiny[0] = 1e-20f;
+  queries.push_back(tiny);
+  expectExact(words, queries, size);
+}
+
+TEST_P(Matching, LowerBoundsNeverExceedTheDistanceAndOnlyGrow) {
+  const std::size_t size = GetParam();
+  std::vector<std::size_t> sizes;
+  for (const std::size_t groups : {1u, 5u, 24u, 200u}) {
+    if (groups <= size) sizes.push_back(groups);
+  }
+  const auto levels = sks::learnBoundCascade(matrix(histograms(100, size, 11), size), sizes);
+  ASSERT_EQ(levels.size(), sizes.size());
+  std::mt19937 random(12);
+  for (int trial = 0; trial < 200; ++trial) {
+    const auto a = histogram(random, size, 0.02 + 0.2 * (trial % 5)), b = histogram(random, size, 0.3);
+    double previous = 0;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      const sks::BinMerge& level = levels[i];
+      ASSERT_EQ(level.size, sizes[i]);
+      ASSERT_EQ(level.group.size(), size);
+      ASSERT_GE(level.padded(), level.size);
+      std::vector<float> merged_a(level.padded(), 7.0f), merged_b(level.padded(), 7.0f);  // padding is overwritten
+      level.apply(a.data(), merged_a.data());
+      level.apply(b.data(), merged_b.data());
+      const double bound = plainChiSquared(merged_a, merged_b);
+      EXPECT_GE(bound, previous * (1 - 1e-6));
+      previous = bound;
+    }
+    EXPECT_LE(previous, plainChiSquared(a, b) * (1 + 1e-6));
+  }
+}
+
+TEST_P(Matching, DoesNotDependOnThreads) {  // trap 9
+  const sks::Matcher matcher(matrix(histograms(300, GetParam(), 13), GetParam()));
+  const sks::DescriptorMatrix queries = matrix(histograms(101, GetParam(), 14), GetParam());
+  const auto one = matcher.match(queries, 1);
+  for (const int threads : {2, 5}) {
+    const auto more = matcher.match(queries, threads);
+    ASSERT_EQ(more.size(), one.size());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      EXPECT_EQ(more[i].descriptor, one[i].descriptor);
+      EXPECT_EQ(more[i].word, one[i].word);
+      EXPECT_EQ(more[i].distance, one[i].distance);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, Matching, testing::Values(7u, 33u, 352u, 1344u));
+
+TEST(Matcher, OfOneWordMatchesIt) {
+  for (const std::size_t size : {1u, 33u, 352u}) expectExact(histograms(1, size, 18), histograms(3, size, 19), size);
+}
+
+TEST(Matcher, RefusesWhatIsNoHistogramNamingWordAndBin) {
+  for (const auto& [value, text] : {std::make_pair(-0.5f, "-0.5"),
+                                    {std::numeric_limits<float>::infinity(), "inf"},
+                                    {std::numeric_limits<float>::quiet_NaN(), "nan"}}) {
+    Rows words = histograms(5, 33, 15);
+    words[3][17] = value;
+    const std::string message = sks::test::errorOf(sks::ErrorCode::bad_data, [&] { sks::Matcher{matrix(words, 33)}; });
+    EXPECT_THAT(message, HasSubstr("codeword 3 is no histogram: bin 17 is "));
+    EXPECT_THAT(message, HasSubstr(text));
+  }
+}
+
+TEST(Matcher, RefusesDescriptorsOfAnotherSize) {
+  const sks::Matcher matcher(matrix(histograms(5, 352, 16), 352));
+  const sks::DescriptorMatrix queries = matrix(histograms(2, 1344, 17), 1344);
+  EXPECT_EQ(sks::test::errorOf(sks::ErrorCode::incompatible, [&] { matcher.match(queries, 1); }),
+            "descriptors of 1344 bins cannot be matched with codewords of 352");
+}
+
+TEST(Matcher, OfNothingMatchesNothing) {
+  EXPECT_TRUE(sks::Matcher(matrix({}, 352)).match(matrix(histograms(2, 352, 1), 352), 1).empty());
+  EXPECT_TRUE(sks::Matcher(matrix(histograms(2, 352, 1), 352)).match(matrix({}, 352), 1).empty());
+}
