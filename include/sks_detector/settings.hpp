@@ -166,6 +166,24 @@ struct RansacSettings {
   }
 };
 
+struct RefinementSettings {
+  int iterations = 10;
+  double start_distance = 0.02;
+  double end_distance = 0.005;
+  int max_points = 250;
+  double min_density = 3.0;
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& s, Visitor&& v) {
+    v(s.iterations, "iterations", Range{0, 1000}, "", "rounds of ICP against the stored surface; 0: no refinement");
+    v(s.start_distance, "start_distance", Range{0.0005, 0.5}, "m", "farthest pairs of the first round");
+    v(s.end_distance, "end_distance", Range{0.0005, 0.5}, "m", "farthest pairs of the last round");
+    v(s.max_points, "max_points", Range{10, 1000000}, "",
+      "most points of the stored surface that are used, spread evenly");
+    v(s.min_density, "min_density", Range{0, 10000}, "votes", "hypotheses of lower density are not refined");
+  }
+};
+
 struct DetectionSettings {
   double threshold = 0.5;
   double half_density = 8.0;
@@ -197,6 +215,7 @@ struct Settings {
   DescriptorSettings descriptor;
   VotingSettings voting;
   RansacSettings ransac;
+  RefinementSettings refinement;
   DetectionSettings detection;
   TrainingSettings training;
   int threads = 0;
@@ -209,6 +228,7 @@ struct Settings {
     v.group("descriptor", s.descriptor);
     v.group("voting", s.voting);
     v.group("ransac", s.ransac);
+    v.group("refinement", s.refinement);
     v.group("detection", s.detection);
     v.group("training", s.training);
     v(s.threads, "threads", Range{0, 256}, "", "threads for training and detection; 0: one for each core");

@@ -6,6 +6,7 @@
 
 #include <sks_detector/error.hpp>
 #include <sks_detector/hypothesis.hpp>
+#include <sks_detector/refinement.hpp>
 #include <sks_detector/sanitize.hpp>
 #include <sks_detector/voting.hpp>
 
@@ -59,6 +60,20 @@ std::vector<std::pair<std::uint32_t, Maximum>> allMaxima(const std::vector<std::
     for (auto& maximum : by_object[object]) maxima.emplace_back(std::uint32_t(object), std::move(maximum));
   }
   return maxima;
+}
+
+void refine(std::vector<Hypothesis>& hypotheses, const Codebook& codebook, const Surface& scene,
+            const RefinementSettings& settings, int threads) {
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    Hypothesis& hypothesis = hypotheses[i];
+    if (hypothesis.density < settings.min_density) continue;
+    const TrainingView& view = codebook.views[hypothesis.view];
+    const Eigen::Isometry3d T_model_box = hypothesis.T_scene_model.inverse() * hypothesis.T_scene_box;
+    hypothesis.T_scene_model =
+        refinePose(view.surface_points, view.surface_normals, scene, settings, hypothesis.T_scene_model);
+    hypothesis.T_scene_box = hypothesis.T_scene_model * T_model_box;
+  }
 }
 
 Detection toDetection(const Codebook& codebook, const Hypothesis& hypothesis, const Settings& settings) {
@@ -122,11 +137,16 @@ DetectionResult Detector::detect(const Cloud& cloud) const {
   const auto maxima = allMaxima(votes, settings_, threads);
   times.voting = stage.lap();
 
+  std::vector<Hypothesis> hypotheses;
   for (const auto& [object, maximum] : maxima) {
     Hypothesis hypothesis;
     if (estimateHypothesis(*codebook_, object, votes[object], maximum, settings_, hypothesis)) {
-      result.detections.push_back(toDetection(*codebook_, hypothesis, settings_));
+      hypotheses.push_back(std::move(hypothesis));
     }
+  }
+  if (settings_.refinement.iterations > 0) refine(hypotheses, *codebook_, surface, settings_.refinement, threads);
+  for (const Hypothesis& hypothesis : hypotheses) {
+    result.detections.push_back(toDetection(*codebook_, hypothesis, settings_));
   }
   std::sort(result.detections.begin(), result.detections.end(), better);
   times.verification = stage.lap();
