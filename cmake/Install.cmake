@@ -8,6 +8,12 @@ install(TARGETS ${PROJECT_NAME}_core EXPORT ${PROJECT_NAME}Targets
   ARCHIVE DESTINATION ${sks_lib_dir}
   LIBRARY DESTINATION ${sks_lib_dir}
   RUNTIME DESTINATION ${sks_bin_dir})
+if(sks_simulation)
+  install(TARGETS ${PROJECT_NAME}_simulation EXPORT ${PROJECT_NAME}Targets
+    ARCHIVE DESTINATION ${sks_lib_dir}
+    LIBRARY DESTINATION ${sks_lib_dir}
+    RUNTIME DESTINATION ${sks_bin_dir})
+endif()
 if(TARGET sks)
   install(TARGETS sks RUNTIME DESTINATION ${sks_bin_dir})
 endif()

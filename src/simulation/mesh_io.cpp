@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/simulation/mesh.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include <sks_detector/error.hpp>
+
+namespace sks {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double largest_in_metres = 5;  // what is wider across must be given in millimetres
+
+[[noreturn]] void fail(const std::string& path, const std::string& reason) {
+  throw Error(ErrorCode::bad_file, "cannot read mesh '" + path + "': " + reason);
+}
+
+std::uint8_t toByte(float share) {
+  return std::uint8_t(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
+}
+
+Rgb toRgb(const aiColor4D& color) {
+  return {toByte(color.r), toByte(color.g), toByte(color.b)};
+}
+
+/// Gathers the parts of one file into one mesh.
+class MeshReader {
+public:
+  MeshReader(const std::string& path, const aiScene& scene) : path_(path), scene_(scene) {}
+
+  LoadedMesh read() {
+    readTextures();
+    for (unsigned i = 0; i < scene_.mNumMeshes; ++i) any_color_ |= isColored(*scene_.mMeshes[i]);
+    for (unsigned i = 0; i < scene_.mNumMeshes; ++i) add(*scene_.mMeshes[i]);
+    return std::move(result_);
+  }
+
+private:
+  void readTextures();
+  Texture readTexture(const std::string& name);
+  void add(const aiMesh& part);
+
+  int textureOf(const aiMesh& part) const {
+    return part.HasTextureCoords(0) ? texture_of_material_[part.mMaterialIndex] : -1;
+  }
+  bool isColored(const aiMesh& part) const {
+    const aiMaterial& material = *scene_.mMaterials[part.mMaterialIndex];
+    aiColor4D ignored;
+    const bool own_material = std::strcmp(material.GetName().C_Str(), AI_DEFAULT_MATERIAL_NAME) != 0;
+    return part.HasVertexColors(0) || textureOf(part) >= 0 ||
+           (own_material && material.Get(AI_MATKEY_COLOR_DIFFUSE, ignored) == AI_SUCCESS);
+  }
+
+  std::string path_;
+  const aiScene& scene_;
+  LoadedMesh result_;
+  std::vector<int> texture_of_material_;
+  bool any_color_ = false;
+};
+
+void MeshReader::readTextures() {
+  for (unsigned i = 0; i < scene_.mNumMaterials; ++i) {
+    texture_of_material_.push_back(-1);
+    aiString name;
+    if (scene_.mMaterials[i]->GetTexture(aiTextureType_DIFFUSE, 0, &name) != AI_SUCCESS) continue;
+    Texture texture = readTexture(name.C_Str());
+    if (texture.width() == 0) continue;
+    texture_of_material_.back() = int(result_.mesh.textures.size());
+    result_.mesh.textures.push_back(std::move(texture));
+  }
+}
+
+Texture MeshReader::readTexture(const std::string& name) {
+  std::string file = name;
+  std::replace(file.begin(), file.end(), '\\', '/');
+  file = (fs::path(path_).parent_path() / file).lexically_normal().string();
+  cv::Mat image;
+  std::error_code ignored;
+  if (fs::is_regular_file(file, ignored)) image = cv::imread(file, cv::IMREAD_COLOR);
+  if (image.empty()) {
+    result_.warnings.push_back(path_ + ": its texture '" + file + "' cannot be read; the mesh has no colour there");
+    return {};
+  }
+  std::vector<Rgb> pixels;
+  pixels.reserve(image.total());
+  for (const cv::Vec3b& bgr : cv::Mat3b(image)) pixels.push_back({bgr[2], bgr[1], bgr[0]});
+  return {image.cols, image.rows, std::move(pixels)};
+}
+
+void MeshReader::add(const aiMesh& part) {
+  Mesh& mesh = result_.mesh;
+  const int first = int(mesh.vertices.size()), texture = textureOf(part);
+  aiColor4D diffuse(0.7f, 0.7f, 0.7f, 1);
+  scene_.mMaterials[part.mMaterialIndex]->Get(AI_MATKEY_COLOR_DIFFUSE, diffuse);
+  for (unsigned i = 0; i < part.mNumVertices; ++i) {
+    const aiVector3D& v = part.mVertices[i];
+    mesh.vertices.emplace_back(v.x, v.y, v.z);
+    if (any_color_) mesh.colors.push_back(toRgb(part.HasVertexColors(0) ? part.mColors[0][i] : diffuse));
+    if (mesh.textures.empty()) continue;
+    const aiVector3D uv = part.HasTextureCoords(0) ? part.mTextureCoords[0][i] : aiVector3D();
+    mesh.texture_uv.emplace_back(uv.x, uv.y);
+  }
+  for (unsigned i = 0; i < part.mNumFaces; ++i) {
+    const aiFace& face = part.mFaces[i];
+    if (face.mNumIndices != 3) continue;
+    mesh.triangles.emplace_back(first + int(face.mIndices[0]), first + int(face.mIndices[1]),
+                                first + int(face.mIndices[2]));
+    if (!mesh.textures.empty()) mesh.triangle_texture.push_back(texture);
+  }
+}
+
+void check(const std::string& path, const Mesh& mesh) {
+  if (mesh.triangles.empty()) fail(path, "it has no triangles; a point cloud goes with `kind: model` or `kind: view`");
+  for (const Eigen::Vector3f& v : mesh.vertices) {
+    if (!v.allFinite()) fail(path, "it has a vertex that is not finite; repair it in a mesh editor");
+  }
+  for (const Eigen::Vector2f& uv : mesh.texture_uv) {
+    if (!uv.allFinite()) fail(path, "it has a texture coordinate that is not finite; repair it in a mesh editor");
+  }
+}
+
+void applyScale(const std::string& path, double scale, LoadedMesh& loaded) {
+  const double diagonal = loaded.mesh.box().diagonal().norm();
+  if (!(diagonal > 0)) fail(path, "all its vertices lie in one place");
+  if (scale <= 0) {
+    scale = diagonal > largest_in_metres ? 0.001 : 1;
+    if (scale < 1) {
+      loaded.warnings.push_back(path + ": it measures " + std::to_string(int(diagonal)) +
+                                " units across, which is taken for millimetres");
+    }
+  }
+  for (Eigen::Vector3f& v : loaded.mesh.vertices) v *= float(scale);
+}
+
+}  // namespace
+
+LoadedMesh loadMesh(const std::string& path, double scale) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) fail(path, "it is a folder; give the name of an OBJ, PLY, STL or DAE file");
+  if (!fs::exists(path, ignored)) fail(path, "it does not exist");
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // the file's own axes are the model's
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
+                                                     aiProcess_PreTransformVertices | aiProcess_SortByPType);
+  if (scene == nullptr) fail(path, importer.GetErrorString());
+  LoadedMesh loaded = MeshReader(path, *scene).read();
+  check(path, loaded.mesh);
+  applyScale(path, scale, loaded);
+  return loaded;
+}
+
+}  // namespace sks

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/simulation/renderer.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <embree3/rtcore.h>
+
+#include <sks_detector/error.hpp>
+
+#include "simulation/pixel_random.hpp"
+
+namespace sks {
+namespace {
+
+constexpr float far = 1000;        // rays end there [m]
+constexpr float detach = 0.0005f;  // a shadow ray ends this far before the surface that it is about [m]
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+/// What a ray meets first.
+struct Hit {
+  bool found = false;
+  float depth = 0;  // along z, for rays of z = 1
+  unsigned instance = 0, triangle = 0;
+  float u = 0, v = 0;  // barycentric
+  float cosine = 1;    // of the angle between ray and normal
+};
+
+Eigen::Matrix<float, 3, 4> toEmbree(const Eigen::Isometry3d& transform) {
+  return transform.matrix().topRows<3>().cast<float>();
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+  struct Instance {
+    std::size_t mesh;
+    RTCGeometry geometry;
+    Eigen::Matrix3f R_world_mesh;
+  };
+
+  RTCDevice device = rtcNewDevice("threads=1");
+  RTCScene world = rtcNewScene(device);
+  std::vector<std::shared_ptr<const Mesh>> meshes;
+  std::vector<RTCScene> mesh_scenes;
+  std::vector<Instance> instances;
+
+  Impl() { rtcSetSceneFlags(world, RTC_SCENE_FLAG_ROBUST); }
+  ~Impl() {
+    for (const Instance& instance : instances) rtcReleaseGeometry(instance.geometry);
+    for (const RTCScene scene : mesh_scenes) rtcReleaseScene(scene);
+    rtcReleaseScene(world);
+    rtcReleaseDevice(device);
+  }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  Hit cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
+  bool blocked(const Eigen::Vector3f& from, const Eigen::Vector3f& to) const;
+};
+
+Hit Renderer::Impl::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const {
+  RTCRayHit query{};
+  query.ray = {origin.x(), origin.y(), origin.z(), 0, direction.x(), direction.y(), direction.z(), 0, far, ~0u, 0, 0};
+  query.hit.geomID = query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcIntersect1(world, &context, &query);
+  Hit hit;
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
+  hit.found = true;
+  hit.depth = query.ray.tfar;
+  hit.instance = query.hit.instID[0];
+  hit.triangle = query.hit.primID;
+  hit.u = query.hit.u;
+  hit.v = query.hit.v;
+  const Eigen::Vector3f normal =
+      instances[hit.instance].R_world_mesh * Eigen::Vector3f(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+  hit.cosine = std::min(1.0f, std::abs(normal.normalized().dot(direction.normalized())));  // whichever side is seen
+  return hit;
+}
+
+bool Renderer::Impl::blocked(const Eigen::Vector3f& from, const Eigen::Vector3f& to) const {
+  const Eigen::Vector3f way = to - from;
+  const float length = way.norm();
+  RTCRay ray{from.x(), from.y(), from.z(), 0, way.x(), way.y(), way.z(), 0, 1 - detach / length, ~0u, 0, 0};
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(world, &context, &ray);
+  return ray.tfar < 0;  // Embree's sign that something was hit
+}
+
+Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+std::size_t Renderer::addMesh(std::shared_ptr<const Mesh> mesh) {
+  RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                                               3 * sizeof(float), mesh->vertices.size()));
+  for (const Eigen::Vector3f& v : mesh->vertices) vertices = std::copy(v.data(), v.data() + 3, vertices);
+  auto* corners = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                                 3 * sizeof(unsigned), mesh->triangles.size()));
+  for (const Eigen::Vector3i& t : mesh->triangles) corners = std::copy(t.data(), t.data() + 3, corners);
+  rtcCommitGeometry(geometry);
+  RTCScene scene = rtcNewScene(impl_->device);
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+  impl_->mesh_scenes.push_back(scene);
+  impl_->meshes.push_back(std::move(mesh));
+  return impl_->meshes.size() - 1;
+}
+
+std::size_t Renderer::addInstance(std::size_t mesh, const Eigen::Isometry3d& T_world_mesh) {
+  RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(geometry, impl_->mesh_scenes[mesh]);
+  const Eigen::Matrix<float, 3, 4> transform = toEmbree(T_world_mesh);
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(impl_->world, geometry, unsigned(impl_->instances.size()));
+  impl_->instances.push_back({mesh, geometry, transform.leftCols<3>()});
+  rtcCommitScene(impl_->world);
+  return impl_->instances.size() - 1;
+}
+
+void Renderer::setVisible(std::size_t instance, bool visible) {
+  const RTCGeometry geometry = impl_->instances[instance].geometry;
+  if (visible) {
+    rtcEnableGeometry(geometry);
+  } else {
+    rtcDisableGeometry(geometry);
+  }
+  rtcCommitScene(impl_->world);
+}
+
+namespace {
+
+/// The depth that the sensor makes of a true one; NaN where it loses it. Always takes the same number of random
+/// numbers.
+double measuredDepth(const CameraModel& camera, const Hit& hit, PixelRandom& random) {
+  const CameraNoise& noise = camera.noise;
+  const double angle = std::acos(double(hit.cosine)), degrees = angle * 180 / EIGEN_PI;
+  const double luck = random.uniform(), error = random.normal().first;
+  if (noise.grazing && luck < (degrees - noise.grazing_from) / (noise.grazing_to - noise.grazing_from)) return nan;
+  double depth = hit.depth;
+  if (noise.axial) {
+    double variance = std::pow(axialSigma(depth, angle), 2);
+    if (noise.disparity) {  // the steps that come on top were in what the model was fitted to
+      const double step = depth * depth * noise.disparity_step / (camera.fx * camera.baseline);
+      variance = std::max(0.0, variance - step * step / 12);
+    }
+    depth += error * std::sqrt(variance);
+  }
+  return noise.disparity ? quantizeDepth(camera, depth) : depth;
+}
+
+Rgb shaded(const Rgb& color, float cosine) {
+  const float light = 0.3f + 0.7f * cosine;
+  return {std::uint8_t(light * color.r), std::uint8_t(light * color.g), std::uint8_t(light * color.b)};
+}
+
+}  // namespace
+
+Rendering Renderer::render(const CameraModel& camera, const Eigen::Isometry3d& T_world_camera, std::uint64_t frame,
+                           int threads) const {
+  validate(camera);
+  Rendering result;
+  Cloud& cloud = result.cloud;
+  cloud.width = std::uint32_t(camera.width);
+  cloud.height = std::uint32_t(camera.height);
+  const std::size_t pixels = std::size_t(camera.width) * std::size_t(camera.height);
+  cloud.points.assign(pixels, Eigen::Vector3f::Constant(nan));
+  cloud.colors.resize(pixels);
+  result.instance.assign(pixels, -1);
+  const Eigen::Matrix3f R_world_camera = T_world_camera.linear().cast<float>();
+  const Eigen::Vector3f eye = T_world_camera.translation().cast<float>();
+  const Eigen::Vector3f projector = (T_world_camera * Eigen::Vector3d(camera.baseline, 0, 0)).cast<float>();
+  const CameraNoise& noise = camera.noise;
+
+#pragma omp parallel for schedule(dynamic, 4) num_threads(threads)
+  for (int row = 0; row < camera.height; ++row) {
+    for (int column = 0; column < camera.width; ++column) {
+      const std::size_t pixel = std::size_t(row) * std::size_t(camera.width) + std::size_t(column);
+      const Eigen::Vector3f ray = camera.ray(column, row);
+      const Hit seen = impl_->cast(eye, R_world_camera * ray);
+      if (seen.found) {
+        const Mesh& mesh = *impl_->meshes[impl_->instances[seen.instance].mesh];
+        const Rgb color = mesh.color(seen.triangle, seen.u, seen.v, seen.depth / float(camera.fx));
+        cloud.colors[pixel] = camera.shading ? shaded(color, seen.cosine) : color;
+        result.instance[pixel] = std::int32_t(seen.instance);
+      }
+      PixelRandom random(noise.seed, frame, pixel);
+      const auto [aside, down] = random.normal();
+      Hit hit = seen;
+      Eigen::Vector3f place = ray;
+      if (noise.lateral) {
+        place = camera.ray(column + noise.lateral_sigma * aside, row + noise.lateral_sigma * down);
+        hit = impl_->cast(eye, R_world_camera * place);
+      }
+      if (!hit.found) continue;
+      if (noise.shadow && impl_->blocked(projector, eye + hit.depth * (R_world_camera * place))) continue;
+      const float depth = float(measuredDepth(camera, hit, random));
+      if (depth >= float(camera.min_range) && depth <= float(camera.max_range)) cloud.points[pixel] = depth * ray;
+    }
+  }
+  return result;
+}
+
+std::vector<float> Rendering::depth() const {
+  std::vector<float> depth;
+  depth.reserve(cloud.size());
+  for (const Eigen::Vector3f& p : cloud.points) depth.push_back(p.z());
+  return depth;
+}
+
+}  // namespace sks
