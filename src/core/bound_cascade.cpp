@@ -51,6 +51,7 @@ Agglomeration::Agglomeration(const DescriptorMatrix& words)
     second.push_back(words.row(random() % words.rows()));
     weight.push_back(1.0f / (chiSquaredFast(first[s], second[s], words.cols()) + 1e-6f));
   }
+  std::size_t empties = words.cols();  // the first empty bin
   for (std::size_t bin = 0; bin < words.cols(); ++bin) {
     Group& group = groups_[bin];
     for (std::size_t s = 0; s < sample_pairs; ++s) {
@@ -59,8 +60,14 @@ Agglomeration::Agglomeration(const DescriptorMatrix& words)
       group.b.push_back(second[s][bin] * weight[s]);
       group.term.push_back(chiTerm(group.a[s], group.b[s]));
     }
-    alive_.push_back(bin);
-    leader_[bin] = bin;
+    // Merging bins that no sampled word has anything in costs nothing: they are one group from the start. One by one
+    // they would be every other bin's partner in turn, and each merge would look for all partners again.
+    const auto isZero = [](float value) { return value == 0; };
+    const bool empty =
+        std::all_of(group.a.begin(), group.a.end(), isZero) && std::all_of(group.b.begin(), group.b.end(), isZero);
+    leader_[bin] = empty && empties < words.cols() ? empties : bin;
+    if (empty && empties == words.cols()) empties = bin;
+    if (leader_[bin] == bin) alive_.push_back(bin);
   }
   for (const std::size_t i : alive_) findPartner(i);
 }

@@ -27,7 +27,8 @@ struct BinMerge {
 
 /// Merges of the bins of `words` into each of the given numbers of groups (ascending), coarse to fine. Which bins go
 /// together is learned from the words: those whose merging costs pairs of words least of their distance, one merge
-/// after the other. Every group of one level is a union of groups of the next, so bounds only grow. Deterministic.
+/// after the other; there are fewer groups than asked for where few bins hold anything. Every group of one level is a
+/// union of groups of the next, so bounds only grow. Deterministic.
 std::vector<BinMerge> learnBoundCascade(const DescriptorMatrix& words, const std::vector<std::size_t>& sizes);
 
 }  // namespace sks
