@@ -162,6 +162,15 @@ TEST_F(CodebookFile, SameCodebookSameBytes) {
   EXPECT_EQ(folder_.fileCount(), 1u);
 }
 
+TEST_F(CodebookFile, ThreadsAreNoPartOfACodebook) {
+  const std::string first = content();
+  sks::Codebook codebook = makeCodebook();
+  codebook.settings.threads = 7;
+  sks::writeCodebook(path_, codebook);
+  EXPECT_EQ(sks::readTextFile(path_), first);
+  EXPECT_EQ(sks::readCodebook(path_)->settings.threads, 0);
+}
+
 TEST_F(CodebookFile, MissingEmptyAndForeign) {
   EXPECT_EQ(readError(), "No such file or directory");
   EXPECT_EQ(errorOf(ErrorCode::bad_file, [&] { sks::readCodebook(folder_.path()); }),

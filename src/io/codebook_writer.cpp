@@ -29,11 +29,12 @@ Offset<flatbuffers::Vector<const format::Vec3*>> toFormat(flatbuffers::FlatBuffe
 
 Offset<format::View> toFormat(flatbuffers::FlatBufferBuilder& builder, const TrainingView& view) {
   const auto source = builder.CreateString(view.source);
+  const auto frame = view.frame.empty() ? Offset<flatbuffers::String>() : builder.CreateSharedString(view.frame);
   const auto points = toFormat(builder, view.surface_points);
   const auto normals = toFormat(builder, view.surface_normals);
   const format::Vec3 origin = toFormat(view.sensor_origin), low = toFormat(view.box_min), high = toFormat(view.box_max);
   return format::CreateView(builder, view.object, source, format::ViewKind(view.kind), &origin, &low, &high, points,
-                            normals);
+                            normals, frame);
 }
 
 /// What the metadata will take at most, known before FlatBuffers' own limit ends the process.
@@ -42,15 +43,21 @@ std::uint64_t metadataBound(const Codebook& codebook) {
   bytes += codebook.words.size() * sizeof(format::Word);
   for (const std::string& object : codebook.objects) bytes += object.size() + 32;
   for (const TrainingView& view : codebook.views) {
-    bytes += 256 + view.source.size() + 2 * view.surface_points.size() * sizeof(format::Vec3);
+    bytes += 256 + view.source.size() + view.frame.size() + 2 * view.surface_points.size() * sizeof(format::Vec3);
   }
   return bytes;
+}
+
+/// The number of threads is the affair of a machine: the same codebook results from any.
+Settings portable(Settings settings) {
+  settings.threads = Settings().threads;
+  return settings;
 }
 
 void build(flatbuffers::FlatBufferBuilder& builder, const Codebook& codebook) {
   const auto name = builder.CreateString(codebook.name);
   const auto type = builder.CreateString(toText(codebook.descriptor_type));
-  const auto settings = builder.CreateString(settingsToYaml(codebook.settings));
+  const auto settings = builder.CreateString(settingsToYaml(portable(codebook.settings)));
   const auto objects = builder.CreateVectorOfStrings(codebook.objects);
   std::vector<Offset<format::View>> views;
   for (const TrainingView& view : codebook.views) views.push_back(toFormat(builder, view));
