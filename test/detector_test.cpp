@@ -66,12 +66,12 @@ void expectSame(const std::vector<sks::Detection>& a, const std::vector<sks::Det
 }
 
 /// Two different objects before a wall.
-sks::Cloud clutteredScene(bool color = false) {
+sks::Cloud clutteredScene() {
   const sks::test::Shape wall{{sks::test::Solid::Shape::box, {0, 0, 0}, {1, 1, 0.02f}}};
   return sks::test::view({Placed{asymmetricShape(), poseOf(55, {1, 2, 0.3f}, {-0.12f, 0.02f, 0.8f})},
                           Placed{roundedShape(), poseOf(20, {1, 2, 0.5f}, {0.12f, 0, 0.75f})},
                           Placed{wall, poseOf(10, {0, 1, 0}, {0, 0, 1.1f})}},
-                         0.0025f, 240, 160, color);
+                         0.0025f, 240, 160);
 }
 
 }  // namespace
