@@ -20,10 +20,12 @@ enum class ViewKind : std::uint8_t {
   model  ///< full 3-D
 };
 
-/// One training cloud: its frame is the model frame of the poses that its codewords lead to.
+/// One training cloud: its frame is the model frame of the poses that its codewords lead to. Views of one object with
+/// the same `frame` are registered to each other: they speak for one pose together.
 struct TrainingView {
   std::uint32_t object = 0;  ///< index into Codebook::objects
   std::string source;        ///< where it came from, e.g. the path of the cloud in the data set file
+  std::string frame;         ///< name of the model frame that it shares with other views; empty: its own
   ViewKind kind = ViewKind::view;
   Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();  ///< [m], model frame
   Eigen::Vector3f box_min = Eigen::Vector3f::Zero();        ///< corners of the axis-aligned bounding box [m]
@@ -31,6 +33,7 @@ struct TrainingView {
   std::vector<Eigen::Vector3f> surface_points;   ///< thinned surface [m], model frame
   std::vector<Eigen::Vector3f> surface_normals;  ///< its unit normals
 
+  const std::string& frameName() const { return frame.empty() ? source : frame; }
   /// What the centre vectors of its codewords point to, and what a detection reports as its position.
   Eigen::Vector3f center() const { return 0.5f * (box_min + box_max); }
   Eigen::Vector3f extent() const { return box_max - box_min; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include <sks_detector/codebook.hpp>
+#include <sks_detector/symmetry.hpp>
 #include <sks_detector/trainer.hpp>
 
 namespace sks {
@@ -18,6 +20,8 @@ struct TrainingEntry {
   std::string source;  ///< the cloud as the file names it, normalised: what Detection::view holds
   std::string path;    ///< where the cloud is: resolved against the data set file
   ViewKind kind = ViewKind::view;
+  bool mesh = false;                 ///< the file is a mesh, or `builtin:` and a name: views of it are rendered
+  std::optional<Symmetry> symmetry;  ///< as declared
 };
 
 /// One true instance of an object in a scene.
@@ -26,6 +30,7 @@ struct GroundTruth {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< box centre of the reference, mapped into the scene [m]
   std::string reference;  ///< the training cloud that the pose maps, named like TrainingEntry::source; may be empty
   std::optional<Eigen::Isometry3d> T_scene_reference;  ///< 6-D pose of the reference's frame [m]
+  std::optional<Symmetry> symmetry;                    ///< of the reference, where its training entry declares one
   std::optional<double> visibility;                    ///< share of the surface that is not occluded, in [0, 1]
 };
 
@@ -61,8 +66,12 @@ struct DataSet {
 ///         key and remedy
 DataSet loadDataSet(const std::string& path);
 
+/// Turns a mesh into training views. @param scale metres per unit of the mesh
+using MeshSampler = std::function<std::vector<TrainingSample>(const TrainingEntry& entry, double scale)>;
+
 /// The training clouds for train(), each read when its turn comes.
-std::vector<TrainingSample> trainingSamples(const DataSet& data_set);
+/// @throws Error(bad_usage) for meshes without a sampler
+std::vector<TrainingSample> trainingSamples(const DataSet& data_set, const MeshSampler& sampler = {});
 
 /// Objects of the ground truth that are not among the trained ones, in order of their first scene: they count as ground
 /// truth and can only be missed.

@@ -13,8 +13,8 @@ namespace sks {
 struct Detection {
   std::string object;  ///< name
   double score = 0;    ///< in [0, 1], comparable across scenes
-  std::string view;    ///< source of the training cloud in whose frame the model's coordinates are
-  Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();  ///< 6-D pose of that training cloud's frame
+  std::string view;    ///< what the model's frame is called: source of a training cloud or mesh
+  Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();  ///< 6-D pose of that frame
   Eigen::Isometry3d T_scene_box = Eigen::Isometry3d::Identity();    ///< box centre, and axes
   Eigen::Vector3d box_size = Eigen::Vector3d::Zero();               ///< full extents along the box's axes [m]
   double density = 0;         ///< kernel sum of the inliers' votes at their maximum

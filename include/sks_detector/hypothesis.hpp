@@ -16,7 +16,7 @@ namespace sks {
 /// An object at a place, with the correspondences that agree on its pose.
 struct Hypothesis {
   std::uint32_t object = 0;
-  std::uint32_t view = 0;  ///< the training view whose frame T_scene_model maps
+  std::uint32_t view = 0;  ///< the training view whose frame T_scene_model maps; of a shared frame the most similar one
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_scene_box = Eigen::Isometry3d::Identity();  ///< box centre, axes parallel to the model's
   Eigen::Vector3d box_size = Eigen::Vector3d::Zero();             ///< full extents [m]
@@ -26,8 +26,8 @@ struct Hypothesis {
 };
 
 /// RANSAC on the pairs {p_t, p_s} of a maximum's votes (section 3.2); then density, least-squares pose and box from
-/// the inliers. Training views have frames of their own, so pairs are compared within one view; the view with most
-/// inliers gives the pose. Votes of views with fewer than three pairs can be neither confirmed nor refuted: they stay.
+/// the inliers. Pairs are compared within one model frame: that of a training view, or of all views that are
+/// registered to each other. The frame with most inliers gives the pose. Votes of frames with fewer than three pairs can be neither confirmed nor refuted: they stay.
 /// @return false if fewer than min_inliers agree
 bool estimateHypothesis(const Codebook& codebook, std::uint32_t object, const std::vector<Vote>& votes,
                         const Maximum& maximum, const Settings& settings, Hypothesis& hypothesis);

@@ -3,8 +3,11 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include <sks_detector/cloud.hpp>
 #include <sks_detector/codebook.hpp>
@@ -19,6 +22,8 @@ struct TrainingSample {
   std::string source;  ///< for people and for pose frames: the cloud's path in the data set file
   ViewKind kind = ViewKind::view;
   std::function<Cloud()> load;
+  std::string frame;                       ///< of views that are registered to each other: name of their common frame
+  std::optional<Eigen::AlignedBox3f> box;  ///< of the whole object [m]; else the box of the cloud is taken
 };
 
 /// Section 3.1: normals, grid keypoints without selection, descriptors, one codeword each.

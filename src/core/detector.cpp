@@ -79,7 +79,7 @@ void refine(std::vector<Hypothesis>& hypotheses, const Codebook& codebook, const
 Detection toDetection(const Codebook& codebook, const Hypothesis& hypothesis, const Settings& settings) {
   Detection detection;
   detection.object = codebook.objects[hypothesis.object];
-  detection.view = codebook.views[hypothesis.view].source;
+  detection.view = codebook.views[hypothesis.view].frameName();
   detection.T_scene_model = hypothesis.T_scene_model;
   detection.T_scene_box = hypothesis.T_scene_box;
   detection.box_size = hypothesis.box_size;

@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
+#include <utility>
 
 #include "core/ransac.hpp"
 
 namespace sks {
 namespace {
 
-struct ViewConsensus {
-  std::uint32_t view = 0;
+struct FrameConsensus {
+  std::uint32_t view = 0;  // the one of the frame with most inliers
   std::vector<std::uint32_t> votes;  // inliers, indices into the class's votes
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
 };
@@ -19,19 +21,32 @@ Eigen::Vector3f position(const Codebook& codebook, const Vote& vote) {
   return codebook.words[vote.word].position;
 }
 
-/// RANSAC over the votes of one training view.
-ViewConsensus consensusOfView(const Codebook& codebook, std::uint32_t view, const std::vector<Vote>& votes,
-                              const std::vector<std::uint32_t>& members, const RansacSettings& settings) {
+std::uint32_t viewOf(const Codebook& codebook, const Vote& vote) {
+  return codebook.words[vote.word].view;
+}
+
+/// The view to which most of the votes belong; of equals the first.
+std::uint32_t mainView(const Codebook& codebook, const std::vector<Vote>& votes,
+                       const std::vector<std::uint32_t>& members) {
+  std::map<std::uint32_t, std::size_t> counts;
+  for (const std::uint32_t i : members) ++counts[viewOf(codebook, votes[i])];
+  const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+  return std::max_element(counts.begin(), counts.end(), fewer)->first;
+}
+
+/// RANSAC over the votes of the training views of one frame.
+FrameConsensus consensusOfFrame(const Codebook& codebook, const std::vector<Vote>& votes,
+                                const std::vector<std::uint32_t>& members, const RansacSettings& settings) {
   std::vector<Eigen::Vector3d> model, scene;
   for (const std::uint32_t i : members) {
     model.push_back(position(codebook, votes[i]).cast<double>());
     scene.push_back(votes[i].keypoint.cast<double>());
   }
-  ViewConsensus consensus;
-  consensus.view = view;
+  FrameConsensus consensus;
   const RigidConsensus found = rigidRansac(model, scene, settings);
   consensus.T_scene_model = found.T_to_from;
   for (const std::size_t i : found.inliers) consensus.votes.push_back(members[i]);
+  if (!consensus.votes.empty()) consensus.view = mainView(codebook, votes, consensus.votes);
   return consensus;
 }
 
@@ -40,7 +55,7 @@ Eigen::Vector3d meanExtent(const Codebook& codebook, const std::vector<Vote>& vo
                            const std::vector<std::uint32_t>& members) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const std::uint32_t i : members) {
-    sum += codebook.views[codebook.words[votes[i].word].view].extent().cast<double>();
+    sum += codebook.views[viewOf(codebook, votes[i])].extent().cast<double>();
   }
   return sum / double(members.size());
 }
@@ -49,17 +64,21 @@ Eigen::Vector3d meanExtent(const Codebook& codebook, const std::vector<Vote>& vo
 
 bool estimateHypothesis(const Codebook& codebook, std::uint32_t object, const std::vector<Vote>& votes,
                         const Maximum& maximum, const Settings& settings, Hypothesis& hypothesis) {
-  std::map<std::uint32_t, std::vector<std::uint32_t>> by_view;
-  for (const std::uint32_t i : maximum.votes) by_view[codebook.words[votes[i].word].view].push_back(i);
+  std::map<std::pair<std::string_view, std::uint32_t>, std::vector<std::uint32_t>> by_frame;
+  for (const std::uint32_t i : maximum.votes) {
+    const std::uint32_t view = viewOf(codebook, votes[i]);
+    const std::string_view frame = codebook.views[view].frame;
+    by_frame[{frame, frame.empty() ? view : 0}].push_back(i);
+  }
 
-  ViewConsensus best;
+  FrameConsensus best;
   std::vector<std::uint32_t> inliers;
-  for (const auto& [view, members] : by_view) {
+  for (const auto& [frame, members] : by_frame) {
     if (members.size() < 3) {  // too few pairs to speak for or against a pose
       inliers.insert(inliers.end(), members.begin(), members.end());
       continue;
     }
-    const ViewConsensus consensus = consensusOfView(codebook, view, votes, members, settings.ransac);
+    const FrameConsensus consensus = consensusOfFrame(codebook, votes, members, settings.ransac);
     if (consensus.votes.size() < std::size_t(settings.ransac.min_inliers)) continue;
     inliers.insert(inliers.end(), consensus.votes.begin(), consensus.votes.end());
     if (consensus.votes.size() > best.votes.size()) best = consensus;

@@ -69,13 +69,14 @@ private:
     view.object = std::uint32_t(known - codebook_.objects.begin());
     if (known == codebook_.objects.end()) codebook_.objects.push_back(sample.object);
     view.source = sample.source;
+    view.frame = sample.frame;
     view.kind = sample.kind;
     view.sensor_origin = cloud.sensor_origin;
-    view.box_min = view.box_max = cloud.points.front();
-    for (const auto& p : cloud.points) {
-      view.box_min = view.box_min.cwiseMin(p);
-      view.box_max = view.box_max.cwiseMax(p);
-    }
+    Eigen::AlignedBox3f box;
+    for (const auto& p : cloud.points) box.extend(p);
+    if (sample.box) box = *sample.box;
+    view.box_min = box.min();
+    view.box_max = box.max();
     for (const std::uint32_t i : thinnedIndices(surface, codebook_.settings.training.surface_resolution)) {
       if (!surface.normal(i).allFinite()) continue;
       view.surface_points.push_back(surface.point(i));

@@ -2,6 +2,7 @@
 #include <sks_detector/dataset.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <utility>
 
@@ -18,6 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Whether a path names an object that the program makes itself.
+bool isBuiltin(const std::string& path) {
+  return path.rfind("builtin:", 0) == 0;
+}
+
 constexpr double rigid_tolerance = 1e-3;  // of each entry of R^T R - I and of the last row
 
 /// Reads the parts of one file; keeps what all of them need.
@@ -32,6 +38,7 @@ public:
 private:
   void readUnits(const YamlMap& map);
   void readTraining(const YamlMap& map);
+  void addSymmetries();
   void readScene(const YamlMap& map);
   GroundTruth readGroundTruth(const YamlMap& map);
   Eigen::Isometry3d readPose(const YamlMap& map) const;
@@ -45,6 +52,7 @@ private:
   }
   std::string resolve(const std::string& path) const { return (folder_ / path).lexically_normal().string(); }
   std::string cloudPath(const YamlMap& map) const;
+  Symmetry readSymmetry(const YamlMap& map) const;
 
   std::string file_;
   fs::path folder_;
@@ -64,11 +72,12 @@ DataSet DataSetReader::read() {
   data_set_.name = map.text("name");
   readUnits(map);
   for (const YAML::Node& item : map.list("training")) {
-    readTraining(mapOf(item, "a training cloud", {"object", "cloud", "kind"}));
+    readTraining(mapOf(item, "a training cloud", {"object", "cloud", "kind", "symmetry"}));
   }
   for (const YAML::Node& item : map.list("scenes")) {
     readScene(mapOf(item, "a scene", {"name", "cloud", "objects", "ignore"}));
   }
+  addSymmetries();
   for (const YAML::Node& item : map.list("tests")) {
     const YamlMap test = mapOf(item, "a test", {"object", "cloud"});
     data_set_.tests.push_back({test.text("object"), cloudPath(test)});
@@ -90,6 +99,7 @@ void DataSetReader::readUnits(const YamlMap& map) {
 }
 
 std::string DataSetReader::cloudPath(const YamlMap& map) const {
+  if (isBuiltin(map.text("cloud"))) return map.text("cloud");
   const std::string path = resolve(map.text("cloud"));
   std::error_code ignored;
   if (fs::is_regular_file(path, ignored)) return path;
@@ -104,11 +114,41 @@ void DataSetReader::readTraining(const YamlMap& map) {
   entry.source = fs::path(map.text("cloud")).lexically_normal().string();
   entry.path = cloudPath(map);
   const std::string kind = map.text("kind");
-  if (kind != "view" && kind != "model") {
-    map.fail("kind", "is '" + kind + "': use view (2.5-D, seen from the camera) or model (full 3-D)");
+  if (kind != "view" && kind != "model" && kind != "mesh") {
+    map.fail("kind", "is '" + kind + "': use view (2.5-D, seen from the camera), model (full 3-D) or mesh (triangles)");
   }
-  entry.kind = kind == "view" ? ViewKind::view : ViewKind::model;
+  entry.kind = kind == "model" ? ViewKind::model : ViewKind::view;
+  entry.mesh = kind == "mesh";
+  if (isBuiltin(entry.path) && !entry.mesh) map.fail("kind", "must be mesh for the built-in object " + entry.path);
+  if (map.has("symmetry")) entry.symmetry = readSymmetry(map);
   data_set_.training.push_back(std::move(entry));
+}
+
+Symmetry DataSetReader::readSymmetry(const YamlMap& map) const {
+  const YamlMap part = mapOf(map.at("symmetry"), "a symmetry", {"axis", "order"});
+  const std::vector<double> axis = part.numbers("axis", 3);
+  Symmetry symmetry;
+  symmetry.axis = Eigen::Vector3d(axis[0], axis[1], axis[2]);
+  if (symmetry.axis.norm() < 1e-9) part.fail("axis", "must have a length");
+  symmetry.axis.normalize();
+  if (part.text("order") == "inf") return symmetry;
+  const double order = part.number("order");
+  if (order < 2 || order > 1000 || order != std::floor(order)) {
+    part.fail("order", "must be a whole number from 2 to 1000, or inf for a body of revolution");
+  }
+  symmetry.order = int(order);
+  return symmetry;
+}
+
+/// Gives the ground truth the symmetries that the training entries declare.
+void DataSetReader::addSymmetries() {
+  for (Scene& scene : data_set_.scenes) {
+    for (GroundTruth& truth : scene.objects) {
+      for (const TrainingEntry& entry : data_set_.training) {
+        if (entry.source == truth.reference) truth.symmetry = entry.symmetry;
+      }
+    }
+  }
 }
 
 void DataSetReader::readScene(const YamlMap& map) {
@@ -154,7 +194,7 @@ void DataSetReader::warnAboutReference(const YamlMap& map, const GroundTruth& tr
   std::error_code ignored;
   if (truth.T_scene_reference && truth.reference.empty()) {
     warn(map.at("pose"), "a pose without 'reference', the training cloud that it maps: no pose error can be taken");
-  } else if (!truth.reference.empty() && !fs::exists(resolve(truth.reference), ignored)) {
+  } else if (!truth.reference.empty() && !isBuiltin(truth.reference) && !fs::exists(resolve(truth.reference), ignored)) {
     warn(map.at("reference"), "reference '" + resolve(truth.reference) + "' does not exist");
   }
 }
@@ -184,11 +224,17 @@ DataSet loadDataSet(const std::string& path) {
   return DataSetReader(path).read();
 }
 
-std::vector<TrainingSample> trainingSamples(const DataSet& data_set) {
+std::vector<TrainingSample> trainingSamples(const DataSet& data_set, const MeshSampler& sampler) {
   std::vector<TrainingSample> samples;
   for (const TrainingEntry& entry : data_set.training) {
+    if (entry.mesh) {
+      if (!sampler) throw Error(ErrorCode::bad_usage, entry.source + ": this program cannot train from meshes");
+      const std::vector<TrainingSample> views = sampler(entry, data_set.scale);
+      samples.insert(samples.end(), views.begin(), views.end());
+      continue;
+    }
     const auto load = [path = entry.path, scale = data_set.scale] { return readCloud(path, scale); };
-    samples.push_back({entry.object, entry.source, entry.kind, load});
+    samples.push_back({entry.object, entry.source, entry.kind, load, {}, {}});
   }
   return samples;
 }

@@ -2,6 +2,7 @@
 #include <sks_detector/scene_matching.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <tuple>
 
@@ -45,6 +46,15 @@ std::vector<Detection> ranked(const Scene& scene, const std::vector<Detection>& 
   return result;
 }
 
+/// The turn about the axis of symmetry that comes nearest to a rotation [rad] (the twist of its swing and twist).
+double nearestTurn(const Eigen::Matrix3d& rotation, const Symmetry& symmetry) {
+  const Eigen::Quaterniond q(rotation);
+  const double turn = 2 * std::atan2(q.vec().dot(symmetry.axis), q.w());
+  if (symmetry.order == 0) return turn;
+  const double step = 2 * EIGEN_PI / symmetry.order;
+  return step * std::round(turn / step);
+}
+
 }  // namespace
 
 std::vector<JudgedDetection> matchScene(const Scene& scene, const std::vector<Detection>& detections,
@@ -63,7 +73,7 @@ std::vector<JudgedDetection> matchScene(const Scene& scene, const std::vector<De
       result.ground_truth = nearest;
       const GroundTruth& truth = scene.objects[*nearest];
       if (truth.T_scene_reference && !truth.reference.empty() && truth.reference == detection.view) {
-        result.pose_error = poseError(detection.T_scene_model, *truth.T_scene_reference, truth.position);
+        result.pose_error = poseError(detection.T_scene_model, *truth.T_scene_reference, truth.position, truth.symmetry);
       }
     }
     judged.push_back(std::move(result));
@@ -75,9 +85,15 @@ bool isIgnored(const Scene& scene, const std::string& object) {
   return std::find(scene.ignore.begin(), scene.ignore.end(), object) != scene.ignore.end();
 }
 
-PoseError poseError(const Eigen::Isometry3d& T_scene_found, const Eigen::Isometry3d& T_scene_true,
-                    const Eigen::Vector3d& position) {
-  const Eigen::Vector3d center = T_scene_true.inverse() * position;  // in the reference's frame
+PoseError poseError(const Eigen::Isometry3d& T_scene_found, const Eigen::Isometry3d& T_scene_reference,
+                    const Eigen::Vector3d& position, const std::optional<Symmetry>& symmetry) {
+  const Eigen::Vector3d center = T_scene_reference.inverse() * position;  // in the reference's frame
+  Eigen::Isometry3d T_scene_true = T_scene_reference;
+  if (symmetry) {
+    const Eigen::Matrix3d difference = T_scene_reference.linear().transpose() * T_scene_found.linear();
+    T_scene_true = T_scene_reference * Eigen::Translation3d(center) *
+                   Eigen::AngleAxisd(nearestTurn(difference, *symmetry), symmetry->axis) * Eigen::Translation3d(-center);
+  }
   PoseError error;
   error.translation = (T_scene_found * center - position).norm();
   const Eigen::Matrix3d difference = T_scene_found.linear() * T_scene_true.linear().transpose();

@@ -34,6 +34,7 @@ TrainingView fromFormat(const format::View& from) {
   view.source = from.source()->str();
   if (from.kind() > format::ViewKind_MAX) fail("its training cloud '" + view.source + "' is of an unknown kind");
   view.kind = ViewKind(from.kind());
+  if (from.frame() != nullptr) view.frame = from.frame()->str();
   view.sensor_origin = fromFormat(*from.sensor_origin());
   view.box_min = fromFormat(*from.box_min());
   view.box_max = fromFormat(*from.box_max());
