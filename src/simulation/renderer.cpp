@@ -127,6 +127,10 @@ std::size_t Renderer::addInstance(std::size_t mesh, const Eigen::Isometry3d& T_w
   return impl_->instances.size() - 1;
 }
 
+std::size_t Renderer::instanceCount() const {
+  return impl_->instances.size();
+}
+
 void Renderer::setVisible(std::size_t instance, bool visible) {
   const RTCGeometry geometry = impl_->instances[instance].geometry;
   if (visible) {

@@ -13,6 +13,7 @@
 #include "tools/evaluation_json.hpp"
 #include "tools/evaluation_plots.hpp"
 #include "tools/evaluation_table.hpp"
+#include "tools/mesh_options.hpp"
 #include "tools/method.hpp"
 #include "tools/progress_bar.hpp"
 
@@ -25,6 +26,7 @@ struct Options {
   std::string save_codebook;
   std::string method = "sks";
   std::string plot;
+  MeshViewOptions mesh_views;
   SettingsOptions settings;
   JsonOption json;
 };
@@ -35,7 +37,8 @@ std::shared_ptr<const Codebook> trainCodebook(const Options& options, const Data
     throw Error(ErrorCode::bad_usage,
                 "'" + options.dataset + "' has no training clouds; give a codebook: --codebook FILE");
   }
-  auto codebook = std::make_shared<Codebook>(train(trainingSamples(data_set), settings, data_set.name, progress));
+  const std::vector<TrainingSample> samples = trainingSamples(data_set, options.mesh_views.sampler());
+  auto codebook = std::make_shared<Codebook>(train(samples, settings, data_set.name, progress));
   if (!options.save_codebook.empty()) codebook->checksum = writeCodebook(options.save_codebook, *codebook);
   return codebook;
 }
@@ -85,6 +88,7 @@ void addEvaluate(CLI::App& app) {
   command->add_option("--method,-m", options->method, methodHelp())
       ->type_name("NAME")
       ->check(CLI::IsMember(methodNames()));
+  options->mesh_views.add(*command);
   options->settings.add(*command);
   options->json.add(*command);
   command->add_option("--plot", options->plot, "draw precision-recall curves, thresholds, times and each scene")

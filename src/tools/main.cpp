@@ -7,6 +7,7 @@
 #include "io/nearest_name.hpp"
 #include "tools/command.hpp"
 #include "tools/progress_bar.hpp"
+#include "tools/simulation.hpp"
 
 namespace {
 
@@ -35,6 +36,7 @@ int main(int argc, char** argv) {
   tools::addTrain(app);
   tools::addDetect(app);
   tools::addEvaluate(app);
+  tools::addSimulate(app);
   tools::addInfo(app);
   tools::addVerify(app);
   tools::addSettings(app);

@@ -10,6 +10,7 @@
 #include "core/stopwatch.hpp"
 #include "tools/codebook_summary.hpp"
 #include "tools/command.hpp"
+#include "tools/mesh_options.hpp"
 #include "tools/progress_bar.hpp"
 #include "tools/table.hpp"
 
@@ -20,25 +21,40 @@ struct Options {
   std::string dataset;
   std::string output;
   std::string name;
+  MeshOptions meshes;
+  MeshViewOptions mesh_views;
   SettingsOptions settings;
   JsonOption json;
 };
 
-void run(const Options& options) {
-  Settings settings;
-  options.settings.apply(settings);
-  const DataSet data_set = loadDataSet(options.dataset);
-  for (const std::string& warning : data_set.warnings) warn(warning);
+/// What the data set file lists, then the meshes of the command line.
+DataSet trainingSet(const Options& options) {
+  DataSet data_set;
+  data_set.name = "meshes";
+  if (!options.dataset.empty()) {
+    data_set = loadDataSet(options.dataset);
+    for (const std::string& warning : data_set.warnings) warn(warning);
+  } else if (!options.meshes.any()) {
+    throw Error(ErrorCode::bad_usage, "there is nothing to train: give --dataset FILE, --mesh NAME=FILE or --builtin");
+  }
+  for (const TrainingEntry& entry : options.meshes.entries()) data_set.training.push_back(entry);
   if (data_set.training.empty()) {
     throw Error(ErrorCode::bad_data, "'" + options.dataset + "' has no training clouds; list them under 'training'");
   }
+  return data_set;
+}
+
+void run(const Options& options) {
+  Settings settings;
+  options.settings.apply(settings);
+  const DataSet data_set = trainingSet(options);
   checkWritable(options.output);  // before training takes its time
   options.json.check();
 
   Stopwatch stopwatch;
   ProgressBar bar;
-  Codebook codebook =
-      train(trainingSamples(data_set), settings, options.name.empty() ? data_set.name : options.name, bar.callback());
+  Codebook codebook = train(trainingSamples(data_set, options.mesh_views.sampler()), settings,
+                            options.name.empty() ? data_set.name : options.name, bar.callback());
   bar.clear();
   codebook.checksum = writeCodebook(options.output, codebook);
   const double seconds = stopwatch.lap();
@@ -53,13 +69,15 @@ void run(const Options& options) {
 }  // namespace
 
 void addTrain(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("train", "trains a codebook from the training clouds of a data set");
+  CLI::App* command =
+      app.add_subcommand("train", "trains a codebook from the training clouds of a data set and from meshes");
   const auto options = std::make_shared<Options>();
   command->add_option("--dataset,-d", options->dataset, "data set file (YAML) that lists the training clouds")
-      ->required()
       ->type_name("FILE");
   command->add_option("--output,-o", options->output, "codebook file to write (*.sks)")->required()->type_name("FILE");
   command->add_option("--name", options->name, "name of the codebook (default: that of the data set)");
+  options->meshes.add(*command);
+  options->mesh_views.add(*command);
   options->settings.add(*command);
   options->json.add(*command);
   command->callback([options] { run(*options); });

@@ -34,6 +34,7 @@ public:
   std::size_t addMesh(std::shared_ptr<const Mesh> mesh);
   /// Places a mesh in the world. @return number of the instance: Rendering::instance
   std::size_t addInstance(std::size_t mesh, const Eigen::Isometry3d& T_world_mesh);
+  std::size_t instanceCount() const;
   /// Hides an instance, or shows it again.
   void setVisible(std::size_t instance, bool visible);
 

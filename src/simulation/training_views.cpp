@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/simulation/training_views.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <sks_detector/error.hpp>
+#include <sks_detector/simulation/renderer.hpp>
+#include <sks_detector/simulation/shapes.hpp>
+
+namespace sks {
+namespace {
+
+/// Distance from which a ball just fits into the image.
+double fittingDistance(const CameraModel& camera, double radius) {
+  constexpr double margin = 1.1;
+  const double slope = std::min(0.5 * camera.width / camera.fx, 0.5 * camera.height / camera.fy);
+  return margin * radius / std::sin(std::atan(slope));
+}
+
+/// The points that were measured, in another frame.
+Cloud measuredPoints(const Cloud& view, bool color, const Eigen::Isometry3d& T_model_camera) {
+  const Eigen::Isometry3f transform = T_model_camera.cast<float>();
+  Cloud cloud;
+  cloud.sensor_origin = transform.translation();
+  for (std::size_t i = 0; i < view.size(); ++i) {
+    if (!view.points[i].allFinite()) continue;
+    cloud.points.push_back(transform * view.points[i]);
+    if (color) cloud.colors.push_back(view.colors[i]);
+  }
+  cloud.width = std::uint32_t(cloud.size());
+  return cloud;
+}
+
+}  // namespace
+
+Eigen::Isometry3d lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::Vector3d& up) {
+  const Eigen::Vector3d z = (target - eye).normalized();
+  Eigen::Vector3d x = z.cross(up);
+  if (x.norm() < 1e-6) x = z.unitOrthogonal();
+  x.normalize();
+  Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();
+  T_world_camera.linear() << x, z.cross(x), z;
+  T_world_camera.translation() = eye;
+  return T_world_camera;
+}
+
+std::vector<TrainingSample> meshSamples(const std::string& object, const std::string& source,
+                                        std::shared_ptr<const Mesh> mesh, const MeshTraining& training) {
+  constexpr int most_views = 10000;
+  if (training.views < 1 || training.views > most_views) {
+    throw Error(ErrorCode::bad_usage, "views = " + std::to_string(training.views) + " must be in [1, 10000]");
+  }
+  CameraModel camera = training.camera;
+  if (!training.noise) camera.noise = CameraNoise::none();
+  const Eigen::AlignedBox3f box = mesh->box();
+  const double radius = 0.5 * double(box.diagonal().norm());
+  const double distance = std::max(training.distance, fittingDistance(camera, radius));
+  camera.min_range = 0;  // an object larger than usual is seen from as far as it needs
+  camera.max_range = distance + 2 * radius;
+  validate(camera);
+
+  const auto renderer = std::make_shared<Renderer>();
+  renderer->addInstance(renderer->addMesh(mesh), Eigen::Isometry3d::Identity());
+  std::vector<TrainingSample> samples;
+  for (const Eigen::Vector3d& direction : geodesicDirections(training.views)) {
+    const std::size_t number = samples.size();
+    const Eigen::Vector3d center = box.center().cast<double>();
+    const Eigen::Isometry3d T_model_camera = lookAt(center + distance * direction, center, Eigen::Vector3d::UnitZ());
+    TrainingSample sample;
+    sample.object = object;
+    sample.source = source + "#" + std::to_string(number);
+    sample.frame = source;
+    sample.box = box;
+    sample.load = [renderer, camera, T_model_camera, number, threads = training.threads, color = mesh->hasColor()] {
+      const Rendering view = renderer->render(camera, T_model_camera, number, threads);
+      return measuredPoints(view.cloud, color, T_model_camera);
+    };
+    samples.push_back(std::move(sample));
+  }
+  return samples;
+}
+
+}  // namespace sks

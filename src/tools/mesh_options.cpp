@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/mesh_options.hpp"
+
+#include <algorithm>
+
+#include <sks_detector/error.hpp>
+
+#include "tools/simulation.hpp"
+
+namespace sks::tools {
+
+void MeshOptions::add(CLI::App& command) {
+  command
+      .add_option("--mesh", meshes_,
+                  "an object's mesh (OBJ, PLY, STL, DAE), or builtin:mug and the like; can be repeated")
+      ->type_name("NAME=FILE")
+      ->allow_extra_args(true);
+  command.add_flag("--builtin", builtin_, "all objects that the program makes itself");
+}
+
+std::vector<TrainingEntry> MeshOptions::entries() const {
+  std::vector<TrainingEntry> entries;
+  const auto add = [&](const std::string& name, const std::string& file) {
+    const auto same = [&](const TrainingEntry& entry) { return entry.object == name; };
+    if (std::any_of(entries.begin(), entries.end(), same)) {
+      throw Error(ErrorCode::bad_usage, "--mesh: two meshes are called '" + name + "'");
+    }
+    TrainingEntry entry;
+    entry.object = name;
+    entry.source = entry.path = file;
+    entry.mesh = true;
+    entries.push_back(entry);
+  };
+  if (builtin_) {
+    for (const std::string& name : builtinObjects()) add(name, "builtin:" + name);
+  }
+  for (const std::string& mesh : meshes_) {
+    const std::size_t equals = mesh.find('=');
+    if (equals == std::string::npos || equals == 0 || equals + 1 == mesh.size()) {
+      throw Error(ErrorCode::bad_usage, "--mesh " + mesh + ": expected NAME=FILE, e.g. --mesh mug=mug.obj");
+    }
+    add(mesh.substr(0, equals), mesh.substr(equals + 1));
+  }
+  return entries;
+}
+
+void MeshViewOptions::add(CLI::App& command) {
+  command.add_option("--views", views_, "directions from which each mesh is trained (default: 42)")->type_name("N");
+  command.add_option("--view-distance", distance_, "of the virtual camera from each mesh [m] (default: 0.8)");
+  command.add_flag("--view-noise", noise_, "training views of meshes with the errors of a Kinect");
+}
+
+MeshSampler MeshViewOptions::sampler() const {
+  return meshSampler(views_, distance_, noise_);
+}
+
+}  // namespace sks::tools

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <memory>
+#include <thread>
+
+#include <sks_detector/error.hpp>
+#include <sks_detector/simulation/builtin_objects.hpp>
+#include <sks_detector/simulation/scene.hpp>
+
+#include "tools/command.hpp"
+#include "tools/mesh_options.hpp"
+#include "tools/progress_bar.hpp"
+#include "tools/simulation.hpp"
+#include "tools/simulation/simulated_set.hpp"
+
+namespace sks::tools {
+namespace {
+
+struct Options {
+  std::string output;
+  MeshOptions meshes;
+  int scenes = 10;
+  bool no_noise = false;
+  SceneOptions scene;
+};
+
+std::vector<SceneModel> loadModels(const std::vector<TrainingEntry>& entries) {
+  std::vector<SceneModel> models;
+  for (const TrainingEntry& entry : entries) {
+    LoadedMesh loaded = findMesh(entry.path);
+    for (const std::string& warning : loaded.warnings) warn(warning);
+    models.push_back({entry.object, entry.source, std::make_shared<const Mesh>(std::move(loaded.mesh))});
+  }
+  return models;
+}
+
+void run(const Options& options) {
+  if (!options.meshes.any()) {
+    throw Error(ErrorCode::bad_usage, "there is nothing to simulate: give --builtin or --mesh NAME=FILE");
+  }
+  if (options.scenes < 1 || options.scenes > 100000) {
+    throw Error(ErrorCode::bad_usage, "--scenes " + std::to_string(options.scenes) + " must be in [1, 100000]");
+  }
+  SceneOptions scene = options.scene;
+  scene.threads = std::max(1, int(std::thread::hardware_concurrency()));
+  if (options.no_noise) scene.camera.noise = CameraNoise::none();
+  validate(scene);
+  const std::vector<TrainingEntry> entries = options.meshes.entries();
+  const std::vector<SceneModel> models = loadModels(entries);
+  SimulatedSet set(options.output, entries, models);
+  ProgressBar bar;
+  const Progress progress = bar.callback();
+  const auto total = std::size_t(options.scenes);
+  for (std::size_t i = 0; i < total; ++i) {
+    report(progress, {"simulating", "", i, total});
+    set.add(simulateScene(models, scene, i));
+  }
+  const std::string file = set.finish();
+  bar.clear();
+  print(std::to_string(total) + " scenes: " + file + "\n");
+}
+
+}  // namespace
+
+void addSimulate(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "simulate", "cluttered table scenes with exact ground truth, seen by a virtual RGB-D camera, as a data set");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--output,-o", options->output, "folder for dataset.yaml and scenes/")
+      ->required()
+      ->type_name("DIR");
+  options->meshes.add(*command);
+  command->add_option("--scenes", options->scenes, "number of scenes (default: 10)")->type_name("N");
+  command->add_option("--objects", options->scene.objects, "objects in a scene (default: 5)")->type_name("K");
+  command->add_flag("--repeated", options->scene.repeated, "an object may stand there several times");
+  command->add_option("--distractors", options->scene.distractors, "other things in a scene (default: 4)")
+      ->type_name("D");
+  command->add_option("--region", options->scene.region, "radius in which things are dropped [m] (default: 0.2)");
+  command->add_option("--seed", options->scene.seed, "same seed, same files (default: 1)")->type_name("S");
+  command->add_flag("--no-noise", options->no_noise, "a camera without errors");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace sks::tools

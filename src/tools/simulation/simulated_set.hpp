@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <sks_detector/dataset.hpp>
+#include <sks_detector/simulation/scene.hpp>
+
+namespace sks::tools {
+
+/// A folder that is filled with simulated scenes: scenes/scene000.pcd with its pictures, and dataset.yaml at the end.
+class SimulatedSet {
+public:
+  /// @throws Error(bad_file) if the folder cannot be made
+  SimulatedSet(const std::string& folder, const std::vector<TrainingEntry>& training,
+               const std::vector<SceneModel>& models);
+
+  /// Writes cloud, colour picture (PNG) and depth picture (16-bit PNG, mm). @throws Error(bad_file)
+  void add(const SimulatedScene& scene);
+
+  /// Writes dataset.yaml. @return its path @throws Error(bad_file)
+  std::string finish() const;
+
+private:
+  std::string folder_;
+  std::vector<std::string> sources_;  // of the models, relative to the folder
+  std::vector<std::string> objects_;  // names of the models
+  std::vector<Eigen::Vector3d> centers_;
+  std::string training_, scenes_;  // parts of dataset.yaml
+  int count_ = 0;
+};
+
+}  // namespace sks::tools
