@@ -27,7 +27,8 @@ struct Hypothesis {
 
 /// RANSAC on the pairs {p_t, p_s} of a maximum's votes (section 3.2); then density, least-squares pose and box from
 /// the inliers. Pairs are compared within one model frame: that of a training view, or of all views that are
-/// registered to each other. The frame with most inliers gives the pose. Votes of frames with fewer than three pairs can be neither confirmed nor refuted: they stay.
+/// registered to each other. The frame with most inliers gives the pose. Votes of frames with fewer than three pairs
+/// can be neither confirmed nor refuted: they stay.
 /// @return false if fewer than min_inliers agree
 bool estimateHypothesis(const Codebook& codebook, std::uint32_t object, const std::vector<Vote>& votes,
                         const Maximum& maximum, const Settings& settings, Hypothesis& hypothesis);

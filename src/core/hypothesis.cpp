@@ -12,7 +12,7 @@ namespace sks {
 namespace {
 
 struct FrameConsensus {
-  std::uint32_t view = 0;  // the one of the frame with most inliers
+  std::uint32_t view = 0;            // the one of the frame with most inliers
   std::vector<std::uint32_t> votes;  // inliers, indices into the class's votes
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
 };

@@ -194,7 +194,8 @@ void DataSetReader::warnAboutReference(const YamlMap& map, const GroundTruth& tr
   std::error_code ignored;
   if (truth.T_scene_reference && truth.reference.empty()) {
     warn(map.at("pose"), "a pose without 'reference', the training cloud that it maps: no pose error can be taken");
-  } else if (!truth.reference.empty() && !isBuiltin(truth.reference) && !fs::exists(resolve(truth.reference), ignored)) {
+  } else if (!truth.reference.empty() && !isBuiltin(truth.reference) &&
+             !fs::exists(resolve(truth.reference), ignored)) {
     warn(map.at("reference"), "reference '" + resolve(truth.reference) + "' does not exist");
   }
 }

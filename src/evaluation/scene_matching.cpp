@@ -73,7 +73,8 @@ std::vector<JudgedDetection> matchScene(const Scene& scene, const std::vector<De
       result.ground_truth = nearest;
       const GroundTruth& truth = scene.objects[*nearest];
       if (truth.T_scene_reference && !truth.reference.empty() && truth.reference == detection.view) {
-        result.pose_error = poseError(detection.T_scene_model, *truth.T_scene_reference, truth.position, truth.symmetry);
+        result.pose_error =
+            poseError(detection.T_scene_model, *truth.T_scene_reference, truth.position, truth.symmetry);
       }
     }
     judged.push_back(std::move(result));
@@ -92,7 +93,8 @@ PoseError poseError(const Eigen::Isometry3d& T_scene_found, const Eigen::Isometr
   if (symmetry) {
     const Eigen::Matrix3d difference = T_scene_reference.linear().transpose() * T_scene_found.linear();
     T_scene_true = T_scene_reference * Eigen::Translation3d(center) *
-                   Eigen::AngleAxisd(nearestTurn(difference, *symmetry), symmetry->axis) * Eigen::Translation3d(-center);
+                   Eigen::AngleAxisd(nearestTurn(difference, *symmetry), symmetry->axis) *
+                   Eigen::Translation3d(-center);
   }
   PoseError error;
   error.translation = (T_scene_found * center - position).norm();

@@ -83,6 +83,7 @@ void MeshReader::readTextures() {
 Texture MeshReader::readTexture(const std::string& name) {
   std::string file = name;
   std::replace(file.begin(), file.end(), '\\', '/');
+  file.erase(file.find_last_not_of(" \t\r") + 1);  // MTL files of scanners end lines with a space
   file = (fs::path(path_).parent_path() / file).lexically_normal().string();
   cv::Mat image;
   std::error_code ignored;

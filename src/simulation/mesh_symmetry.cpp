@@ -111,7 +111,9 @@ std::optional<Symmetry> estimateSymmetry(const Mesh& mesh) {
   }
   for (int order = 8; order >= 2; --order) {
     for (const Eigen::Vector3d& axis : axes) {
-      if (falls(axis, 2 * EIGEN_PI / order)) return Symmetry{axis, order};
+      bool all = true;
+      for (int turn = 1; turn < order && all; ++turn) all = falls(axis, turn * 2 * EIGEN_PI / order);
+      if (all) return Symmetry{axis, order};
     }
   }
   return std::nullopt;

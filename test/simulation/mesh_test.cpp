@@ -59,7 +59,7 @@ TEST_F(MeshFile, TextureGivesColour) {
   cv::Mat3b image(2, 2, cv::Vec3b(0, 0, 255));
   image(0, 1) = image(1, 1) = cv::Vec3b(255, 0, 0);  // left red, right blue
   cv::imwrite(folder_.path("t.png"), image);
-  write("a.mtl", "newmtl m\nmap_Kd t.png\n");
+  write("a.mtl", "newmtl m\nmap_Kd t.png \n");
   const Mesh mesh = loadMesh(write("a.obj",
                                    "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0.5\nvt 0.75 0.5\n"
                                    "vt 0.25 0.5\nf 1/1 2/2 3/3\n"))
