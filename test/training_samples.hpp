@@ -12,7 +12,12 @@ namespace sks::test {
 
 inline TrainingSample sampleOf(const std::string& object, Cloud cloud, ViewKind kind = ViewKind::view,
                                const std::string& source = "cloud.pcd") {
-  return {object, source, kind, [cloud = std::move(cloud)] { return cloud; }};
+  TrainingSample sample;
+  sample.object = object;
+  sample.source = source;
+  sample.kind = kind;
+  sample.load = [cloud = std::move(cloud)] { return cloud; };
+  return sample;
 }
 
 }  // namespace sks::test
