@@ -2,6 +2,7 @@
 #include <sks_detector/hypothesis.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string_view>
 #include <utility>
@@ -34,7 +35,16 @@ std::uint32_t mainView(const Codebook& codebook, const std::vector<Vote>& votes,
   return std::max_element(counts.begin(), counts.end(), fewer)->first;
 }
 
-/// RANSAC over the votes of the training views of one frame.
+constexpr double largest_turn = 40 * EIGEN_PI / 180;  // between a vote's own rotation and the pose, in a shared frame
+
+/// Whether the local frames of a correspondence turn the model as the pose does.
+bool turnsAlike(const Vote& vote, const Eigen::Isometry3d& T_scene_model) {
+  const Eigen::Matrix3d difference = T_scene_model.linear().transpose() * vote.rotation.cast<double>();
+  return difference.trace() >= 1 + 2 * std::cos(largest_turn);
+}
+
+/// RANSAC over the votes of the training views of one frame. A shared frame offers many pairs, of which some fit any
+/// motion by chance: there, a vote's own rotation must fit as well.
 FrameConsensus consensusOfFrame(const Codebook& codebook, const std::vector<Vote>& votes,
                                 const std::vector<std::uint32_t>& members, const RansacSettings& settings) {
   std::vector<Eigen::Vector3d> model, scene;
@@ -45,7 +55,10 @@ FrameConsensus consensusOfFrame(const Codebook& codebook, const std::vector<Vote
   FrameConsensus consensus;
   const RigidConsensus found = rigidRansac(model, scene, settings);
   consensus.T_scene_model = found.T_to_from;
-  for (const std::size_t i : found.inliers) consensus.votes.push_back(members[i]);
+  const bool shared = !codebook.views[viewOf(codebook, votes[members.front()])].frame.empty();
+  for (const std::size_t i : found.inliers) {
+    if (!shared || turnsAlike(votes[members[i]], found.T_to_from)) consensus.votes.push_back(members[i]);
+  }
   if (!consensus.votes.empty()) consensus.view = mainView(codebook, votes, consensus.votes);
   return consensus;
 }
