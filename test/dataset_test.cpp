@@ -175,8 +175,10 @@ TEST_F(DataSetFile, ValuesOfTheWrongKindAreRefused) {
   EXPECT_THAT(refusal("name: toys\nunits: m\nmax_distance: 0\nscenes: [1]\n"), HasSubstr("greater than 0 m"));
   EXPECT_THAT(refusal("name: toys\nunits: m\nscenes: [1]\n"), HasSubstr("needs the key 'max_distance'"));
   EXPECT_THAT(refusal(head + "scenes: 3\n"), HasSubstr("'scenes' of the data set must be a list"));
-  EXPECT_THAT(refusal(head + "training:\n  - {object: duck, cloud: ../views/duck0.pcd, kind: photo}\n"),
-              HasSubstr("'kind' of a training cloud is 'photo': use view (2.5-D, seen from the camera) or model"));
+  EXPECT_THAT(
+      refusal(head + "training:\n  - {object: duck, cloud: ../views/duck0.pcd, kind: photo}\n"),
+      HasSubstr(
+          "'kind' of a training cloud is 'photo': use view (2.5-D, seen from the camera), model (full 3-D) or mesh"));
 }
 
 TEST_F(DataSetFile, ScenesNeedNamesOfTheirOwn) {

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#ifdef SKS_EXECUTABLE  // not where the command line is left out of the build
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <sks_detector/dataset.hpp>
+#include <sks_detector/file.hpp>
+
+#include "run_sks.hpp"
+#include "temporary_folder.hpp"
+
+namespace sks {
+namespace {
+
+using test::runSks;
+using ::testing::HasSubstr;
+
+class SimulateCommand : public ::testing::Test {
+protected:
+  test::CommandRun simulate(const std::string& folder) const {
+    return runSks({"simulate", "--output", folder_.path(folder), "--mesh", "mug=builtin:mug", "--mesh",
+                   "duck=builtin:duck", "--scenes", "2", "--objects", "2", "--distractors", "1", "--seed", "4"});
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(SimulateCommand, SameSeedSameFiles) {
+  ASSERT_EQ(simulate("a").status, 0);
+  ASSERT_EQ(simulate("b").status, 0);
+  for (const char* file : {"dataset.yaml", "scenes/scene000.pcd", "scenes/scene001.pcd", "scenes/scene001_color.png",
+                           "scenes/scene001_depth.png"}) {
+    EXPECT_EQ(readTextFile(folder_.path(std::string("a/") + file)),
+              readTextFile(folder_.path(std::string("b/") + file)))
+        << file;
+  }
+  const DataSet data_set = loadDataSet(folder_.path("a/dataset.yaml"));
+  EXPECT_TRUE(data_set.warnings.empty());
+  EXPECT_EQ(data_set.scenes.size(), 2u);
+  EXPECT_EQ(data_set.training.size(), 2u);
+  for (const Scene& scene : data_set.scenes) {
+    for (const GroundTruth& truth : scene.objects) {
+      EXPECT_TRUE(truth.T_scene_reference);
+      EXPECT_GE(truth.visibility.value_or(0), 0.05);
+    }
+  }
+}
+
+TEST_F(SimulateCommand, WhatIsTrainedFromMeshesIsFoundWithItsPose) {
+  ASSERT_EQ(simulate("a").status, 0);
+  ASSERT_EQ(runSks({"train", "--mesh", "mug=builtin:mug", "--mesh", "duck=builtin:duck", "--views", "20", "--output",
+                    folder_.path("a.sks")})
+                .status,
+            0);
+  const test::CommandRun run = runSks(
+      {"evaluate", "--dataset", folder_.path("a/dataset.yaml"), "--codebook", folder_.path("a.sks"), "--json", "-"});
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const nlohmann::json result = nlohmann::json::parse(run.output);
+  EXPECT_GE(result["true_positives"].get<int>(), 2);
+  EXPECT_LT(result["pose"]["translation_error_m"]["median"].get<double>(), 0.005);
+  EXPECT_LT(result["pose"]["rotation_error_deg"]["median"].get<double>(), 5);
+}
+
+TEST_F(SimulateCommand, RefusesWithTheReason) {
+  const auto refusal = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"simulate", "--output", folder_.path("x")});
+    const test::CommandRun run = runSks(arguments);
+    EXPECT_NE(run.status, 0);
+    return run.errors;
+  };
+  EXPECT_THAT(refusal({}), HasSubstr("nothing to simulate: give --builtin or --mesh NAME=FILE"));
+  EXPECT_THAT(refusal({"--mesh", "mug"}), HasSubstr("expected NAME=FILE"));
+  EXPECT_THAT(refusal({"--mesh", "mug=none.obj"}), HasSubstr("'none.obj': it does not exist"));
+  EXPECT_THAT(refusal({"--builtin", "--mesh", "mug=builtin:mug"}), HasSubstr("two meshes are called 'mug'"));
+  EXPECT_THAT(refusal({"--builtin", "--scenes", "0"}), HasSubstr("--scenes 0 must be in"));
+}
+
+}  // namespace
+}  // namespace sks
+
+#endif
