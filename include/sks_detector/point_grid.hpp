@@ -36,6 +36,18 @@ public:
   /// Replaces `runs` by all that may hold points within `radius` of `center`; the distance test is the caller's.
   void findRuns(const Eigen::Vector3f& center, float radius, std::vector<Run>& runs) const;
 
+  /// Windows on the rows around a point, which slide as the points of a row are visited one after the other: no search.
+  struct Cursor {
+    std::uint32_t row = std::uint32_t(-1);
+    float radius = -1;
+    std::vector<Run> rows;     ///< the rows that are near enough
+    std::vector<Run> windows;  ///< the part of each that is near enough along x
+  };
+
+  /// findRuns() for point `i` of the grid; quick where the points are visited in order. The result is `cursor.windows`,
+  /// of which some may be empty.
+  void slideTo(std::size_t i, float radius, Cursor& cursor) const;
+
   /// Calls `f(index, squared distance)` for each point within `radius` of `center`, in order of the index.
   template <typename Function>
   void forEachNeighbor(const Eigen::Vector3f& center, float radius, std::vector<Run>& buffer, Function&& f) const {
@@ -57,6 +69,8 @@ public:
   static constexpr std::size_t simd_padding = 16;
 
 private:
+  std::uint32_t rowOf(float py, float pz) const;
+
   float origin_y_ = 0, origin_z_ = 0;  // lower corner of row (0, 0)
   float cell_ = 1;
   int rows_y_ = 0, rows_z_ = 0;

@@ -16,12 +16,12 @@ void estimateNormals(Surface& surface, const SurfaceSettings& settings, Orientat
   constexpr std::size_t chunk = 512;
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::size_t begin = 0; begin < n; begin += chunk) {
-    Eigen::Vector3f centers[chunk], normals[chunk];
+    Eigen::Vector3f normals[chunk];
     const std::size_t count = std::min(chunk, n - begin);
-    for (std::size_t i = 0; i < count; ++i) centers[i] = surface.point(begin + i);
-    fitPlanes(surface, centers, count, float(settings.normal_radius), settings.normal_min_neighbors, normals);
+    fitPlanesAtPoints(surface, begin, begin + count, float(settings.normal_radius), settings.normal_min_neighbors,
+                      normals);
     for (std::size_t i = 0; i < count; ++i) {
-      const float side = normals[i].dot(surface.sensor_origin - centers[i]) < 0 ? -1.0f : 1.0f;
+      const float side = normals[i].dot(surface.sensor_origin - surface.point(begin + i)) < 0 ? -1.0f : 1.0f;
       surface.nx[begin + i] = side * normals[i].x();
       surface.ny[begin + i] = side * normals[i].y();
       surface.nz[begin + i] = side * normals[i].z();

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/plane_fit.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/plane_fit.cpp"
@@ -61,27 +64,65 @@ namespace sks {
 HWY_EXPORT(sumMoments);
 
 Eigen::Vector3f smallestEigenvector(const Eigen::Matrix3d& matrix) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(matrix);
-  return solver.eigenvectors().col(0).cast<float>().normalized();
+  const double trace = matrix.trace();
+  if (trace > 0) {
+    const Eigen::Matrix3d m = matrix / trace;
+    const double minors = m(0, 0) * m(1, 1) - m(1, 0) * m(1, 0) + m(0, 0) * m(2, 2) - m(2, 0) * m(2, 0) +
+                          m(1, 1) * m(2, 2) - m(2, 1) * m(2, 1);
+    const double determinant = m.determinant();
+    // Newton's method on the characteristic polynomial climbs from 0 to the smallest root; a flat patch needs few
+    // steps.
+    double root = 0;
+    for (int i = 0; i < 30; ++i) {
+      const double slope = (3 * root - 2) * root + minors;
+      if (!(slope > 0)) break;
+      const double step = (((root - 1) * root + minors) * root - determinant) / slope;
+      root -= step;
+      if (std::abs(step) < 1e-14) break;
+    }
+    const Eigen::Matrix3d shifted = m - root * Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d candidates[] = {shifted.col(0).cross(shifted.col(1)), shifted.col(0).cross(shifted.col(2)),
+                                          shifted.col(1).cross(shifted.col(2))};
+    const Eigen::Vector3d& longest =
+        *std::max_element(std::begin(candidates), std::end(candidates),
+                          [](const auto& a, const auto& b) { return a.squaredNorm() < b.squaredNorm(); });
+    if (longest.norm() > 1e-6) return longest.normalized().cast<float>();
+  }
+  // Points along a line, or in a ball, determine no plane: any answer is as good.
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix).eigenvectors().col(0).cast<float>();
 }
+
+namespace {
+
+/// Plane normal of the points in `runs` that lie within the radius.
+Eigen::Vector3f fitPlane(const PointGrid& grid, const Eigen::Vector3f& center, float radius, int min_neighbors,
+                         const std::vector<PointGrid::Run>& runs) {
+  double m[10];
+  HWY_DYNAMIC_DISPATCH(sumMoments)(grid, center.data(), radius, runs.data(), runs.size(), m);
+  if (m[0] < min_neighbors) return Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  const Eigen::Vector3d mean = Eigen::Vector3d(m[1], m[2], m[3]) / m[0];
+  Eigen::Matrix3d scatter;
+  scatter << m[4], m[5], m[6], m[5], m[7], m[8], m[6], m[8], m[9];
+  return smallestEigenvector(scatter / m[0] - mean * mean.transpose());
+}
+
+}  // namespace
 
 void fitPlanes(const PointGrid& grid, const Eigen::Vector3f* centers, std::size_t count, float radius,
                int min_neighbors, Eigen::Vector3f* normals) {
   std::vector<PointGrid::Run> runs;
   for (std::size_t i = 0; i < count; ++i) {
     grid.findRuns(centers[i], radius, runs);
-    double m[10];
-    HWY_DYNAMIC_DISPATCH(sumMoments)(grid, centers[i].data(), radius, runs.data(), runs.size(), m);
-    if (m[0] < min_neighbors) {
-      normals[i].setConstant(std::numeric_limits<float>::quiet_NaN());
-      continue;
-    }
-    const Eigen::Vector3d mean = Eigen::Vector3d(m[1], m[2], m[3]) / m[0];
-    Eigen::Matrix3d scatter;
-    scatter << m[4], m[5], m[6], m[5], m[7], m[8], m[6], m[8], m[9];
-    scatter = scatter / m[0] - mean * mean.transpose();
-    normals[i] = smallestEigenvector(scatter);
+    normals[i] = fitPlane(grid, centers[i], radius, min_neighbors, runs);
+  }
+}
+
+void fitPlanesAtPoints(const PointGrid& grid, std::size_t begin, std::size_t end, float radius, int min_neighbors,
+                       Eigen::Vector3f* normals) {
+  PointGrid::Cursor cursor;
+  for (std::size_t i = begin; i < end; ++i) {
+    grid.slideTo(i, radius, cursor);
+    normals[i - begin] = fitPlane(grid, grid.point(i), radius, min_neighbors, cursor.windows);
   }
 }
 

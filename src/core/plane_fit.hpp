@@ -14,6 +14,10 @@ namespace sks {
 void fitPlanes(const PointGrid& grid, const Eigen::Vector3f* centers, std::size_t count, float radius,
                int min_neighbors, Eigen::Vector3f* normals);
 
+/// The same at points `begin` to `end` - 1 of the grid itself.
+void fitPlanesAtPoints(const PointGrid& grid, std::size_t begin, std::size_t end, float radius, int min_neighbors,
+                       Eigen::Vector3f* normals);
+
 /// Unit eigenvector of the smallest eigenvalue of a symmetric matrix (lower triangle read).
 Eigen::Vector3f smallestEigenvector(const Eigen::Matrix3d& matrix);
 
