@@ -111,7 +111,7 @@ TEST(Renderer, TurnedBoxHasItsAnalyticDepth) {
 TEST(Renderer, InsideOutAndOpenMeshesAreSeen) {
   Mesh sheet;
   sheet.vertices = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
-  for (const Eigen::Vector3i corners : {Eigen::Vector3i(0, 1, 2), Eigen::Vector3i(0, 2, 1)}) {
+  for (const Eigen::Vector3i& corners : {Eigen::Vector3i(0, 1, 2), Eigen::Vector3i(0, 2, 1)}) {
     sheet.triangles = {corners};
     Renderer renderer;
     renderer.addInstance(renderer.addMesh(share(sheet)), at(0, 0, 1));
