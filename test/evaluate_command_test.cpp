@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #ifdef SKS_EXECUTABLE  // not where the command line is left out of the build
 
-#include <cmath>
 #include <filesystem>
 #include <set>
 
@@ -12,6 +11,7 @@
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/file.hpp>
 
+#include "bumps.hpp"
 #include "run_sks.hpp"
 #include "temporary_folder.hpp"
 
@@ -19,25 +19,13 @@ namespace sks {
 namespace {
 
 using nlohmann::json;
+using test::bumps;
 using test::CommandRun;
 using test::runSks;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-/// A surface with bumps that are nowhere alike, seen from the origin at a distance of 1 m.
-Cloud bumps() {
-  Cloud cloud;
-  for (float x = -0.09f; x < 0.09f; x += 0.003f) {
-    for (float y = -0.07f; y < 0.07f; y += 0.003f) {
-      const float z = 0.02f * std::sin(60 * x + 300 * x * y) + 0.015f * std::cos(75 * y + 20 * x) + x * x * 4;
-      cloud.points.emplace_back(x, y, 1 + z);
-    }
-  }
-  cloud.width = std::uint32_t(cloud.points.size());
-  return cloud;
-}
 
 Eigen::Vector3f boxCenter(const Cloud& cloud) {
   Eigen::Vector3f low = cloud.points.front(), high = low;
