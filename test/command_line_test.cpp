@@ -199,7 +199,8 @@ TEST_F(CommandLine, UnusableClouds) {
   test::writeFile(path("nan.pcd"), asciiPcd({"nan nan nan", "nan 0 1", "inf 0 1"}));
   test::writeFile(path("one.pcd"), asciiPcd({"0 0 1"}));
   test::writeFile(path("foreign.pcd"), "hello\n");
-  EXPECT_THAT(failure(detect("empty.pcd")), AllOf(HasSubstr(path("empty.pcd")), HasSubstr("the cloud is empty (0 points)")));
+  EXPECT_THAT(failure(detect("empty.pcd")),
+              AllOf(HasSubstr(path("empty.pcd")), HasSubstr("the cloud is empty (0 points)")));
   EXPECT_THAT(failure(detect("nan.pcd")), AllOf(HasSubstr(path("nan.pcd")), HasSubstr("3 are NaN or infinite")));
   EXPECT_THAT(failure(detect("one.pcd")), AllOf(HasSubstr(path("one.pcd")), HasSubstr("1 usable points")));
   EXPECT_EQ(failure(detect("none.pcd")),
