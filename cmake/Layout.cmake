@@ -13,9 +13,11 @@ if(NOT SKS_CATKIN)
   set(sks_testing_default ON)
 else()
   find_package(catkin REQUIRED)
+  include(cmake/RosMessages.cmake)
   catkin_package(
     INCLUDE_DIRS include
     LIBRARIES ${PROJECT_NAME}_core
+    CATKIN_DEPENDS ${sks_message_dependencies}
     DEPENDS EIGEN3
     CFG_EXTRAS ${PROJECT_NAME}-extras.cmake)
   set(sks_include_root ${CATKIN_GLOBAL_INCLUDE_DESTINATION})

@@ -37,6 +37,13 @@ struct StageCounts {
               hypotheses = 0;
 };
 
+/// What went by on the way to the detections, in the frame of the cloud, for people who look inside.
+struct Inspection {
+  std::vector<Eigen::Vector3f> keypoints;   ///< the kept ones [m]
+  std::vector<Eigen::Vector3f> votes;       ///< where votes fell in the Hough spaces [m]
+  std::vector<std::uint32_t> vote_objects;  ///< of each vote; index into Codebook::objects
+};
+
 struct DetectionResult {
   std::vector<Detection> detections;  ///< every hypothesis with its score, best first; ties by object, then position
   StageTimes times;

@@ -19,16 +19,23 @@ public:
   ///         differ from what the codebook was trained with
   Detector(std::shared_ptr<const Codebook> codebook, const Settings& settings);
 
+  /// The same codebook with other settings; shares what was built for matching, so that it costs nothing.
+  /// @throws like the constructor
+  Detector withSettings(const Settings& settings) const;
+
+  /// @param inspection where given, is filled with what went by
   /// @throws Error(bad_data) for an unusable cloud, Error(incompatible) for a cloud without colour with CSHOT
-  DetectionResult detect(const Cloud& cloud) const;
+  DetectionResult detect(const Cloud& cloud, Inspection* inspection = nullptr) const;
 
   const Codebook& codebook() const { return *codebook_; }
   const Settings& settings() const { return settings_; }
 
 private:
+  Detector(std::shared_ptr<const Codebook> codebook, const Settings& settings, std::shared_ptr<const Matcher> matcher);
+
   std::shared_ptr<const Codebook> codebook_;
   Settings settings_;
-  Matcher matcher_;
+  std::shared_ptr<const Matcher> matcher_;
 };
 
 }  // namespace sks

@@ -90,6 +90,16 @@ Detection toDetection(const Codebook& codebook, const Hypothesis& hypothesis, co
   return detection;
 }
 
+void inspect(const Keypoints& keypoints, const std::vector<std::vector<Vote>>& spaces, Inspection& inspection) {
+  inspection = {keypoints.positions, {}, {}};
+  for (std::size_t object = 0; object < spaces.size(); ++object) {
+    for (const Vote& vote : spaces[object]) {
+      inspection.votes.push_back(vote.position);
+      inspection.vote_objects.push_back(std::uint32_t(object));
+    }
+  }
+}
+
 bool better(const Detection& a, const Detection& b) {
   const auto key = [](const Detection& d) {
     return std::make_tuple(-d.score, std::cref(d.object), d.position().x(), d.position().y(), d.position().z());
@@ -102,9 +112,19 @@ bool better(const Detection& a, const Detection& b) {
 Detector::Detector(std::shared_ptr<const Codebook> codebook, const Settings& settings)
     : codebook_(std::move(codebook)),
       settings_(checkedSettings(*codebook_, settings)),
-      matcher_(codebook_->descriptors) {}
+      matcher_(std::make_shared<Matcher>(codebook_->descriptors)) {}
 
-DetectionResult Detector::detect(const Cloud& cloud) const {
+Detector::Detector(std::shared_ptr<const Codebook> codebook, const Settings& settings,
+                   std::shared_ptr<const Matcher> matcher)
+    : codebook_(std::move(codebook)),
+      settings_(checkedSettings(*codebook_, settings)),
+      matcher_(std::move(matcher)) {}
+
+Detector Detector::withSettings(const Settings& settings) const {
+  return Detector(codebook_, settings, matcher_);
+}
+
+DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) const {
   const int threads = threadCount(settings_);
   DetectionResult result;
   StageTimes& times = result.times;
@@ -130,10 +150,11 @@ DetectionResult Detector::detect(const Cloud& cloud) const {
       computeDescriptors(surface, keypoints, codebook_->descriptor_type, settings_.descriptor, threads);
   times.descriptors = stage.lap();
 
-  const std::vector<Match> matches = matcher_.match(descriptors.values, threads);
+  const std::vector<Match> matches = matcher_->match(descriptors.values, threads);
   times.matching = stage.lap();
 
   const auto votes = castVotes(*codebook_, matches, descriptors, keypoints);
+  if (inspection) inspect(keypoints, votes, *inspection);
   const auto maxima = allMaxima(votes, settings_, threads);
   times.voting = stage.lap();
 

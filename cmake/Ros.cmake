@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# The nodelets, thin shells around the core, and the same as executables. The camera is built where OpenNI2 is found;
+# sets sks_camera to whether it is.
+file(GLOB ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
+file(GLOB nodelet_sources CONFIGURE_DEPENDS src/ros/nodelets/*.cpp)
+file(GLOB camera_sources CONFIGURE_DEPENDS src/ros/camera/*.cpp)
+file(GLOB ros_executables CONFIGURE_DEPENDS src/ros/executables/*.cpp)
+
+find_path(OPENNI2_INCLUDE_DIR OpenNI.h PATH_SUFFIXES openni2)
+find_library(OPENNI2_LIBRARY OpenNI2)
+if(OPENNI2_INCLUDE_DIR AND OPENNI2_LIBRARY)
+  set(sks_camera ON)
+else()
+  set(sks_camera OFF)
+  list(FILTER nodelet_sources EXCLUDE REGEX "/camera[^/]*$")
+  list(FILTER ros_executables EXCLUDE REGEX "/camera[^/]*$")
+  message(STATUS "${PROJECT_NAME} is built without its camera nodelet: it needs `apt-get install libopenni2-dev`")
+endif()
+
+# What the nodelets are made of: tests link it.
+add_library(${PROJECT_NAME}_ros SHARED ${ros_sources})
+add_dependencies(${PROJECT_NAME}_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+target_include_directories(${PROJECT_NAME}_ros PUBLIC src)
+target_include_directories(${PROJECT_NAME}_ros SYSTEM PUBLIC
+  ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
+target_link_libraries(${PROJECT_NAME}_ros PUBLIC sks_build_flags ${PROJECT_NAME}_core ${catkin_LIBRARIES})
+set(sks_ros_libraries ${PROJECT_NAME}_ros)
+
+if(sks_camera)
+  add_library(${PROJECT_NAME}_camera SHARED ${camera_sources})
+  target_include_directories(${PROJECT_NAME}_camera SYSTEM PUBLIC ${OPENNI2_INCLUDE_DIR})
+  target_link_libraries(${PROJECT_NAME}_camera PUBLIC ${PROJECT_NAME}_ros ${OPENNI2_LIBRARY})
+  list(APPEND sks_ros_libraries ${PROJECT_NAME}_camera)
+endif()
+
+add_library(${PROJECT_NAME}_nodelets SHARED ${nodelet_sources})
+target_link_libraries(${PROJECT_NAME}_nodelets PRIVATE ${sks_ros_libraries})
+foreach(source ${ros_executables})
+  get_filename_component(name ${source} NAME_WE)
+  add_executable(${name} ${source})
+  target_link_libraries(${name} PRIVATE ${sks_ros_libraries})
+  set_target_properties(${name} PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${sks_build_bin_dir}
+    INSTALL_RPATH "\$ORIGIN/${sks_bin_to_lib}")
+  install(TARGETS ${name} RUNTIME DESTINATION ${sks_bin_dir})
+endforeach()
+
+install(TARGETS ${sks_ros_libraries} ${PROJECT_NAME}_nodelets
+  ARCHIVE DESTINATION ${sks_lib_dir}
+  LIBRARY DESTINATION ${sks_lib_dir}
+  RUNTIME DESTINATION ${sks_bin_dir})
+install(FILES nodelet_plugins.xml DESTINATION ${sks_share_dir})
+install(DIRECTORY launch DESTINATION ${sks_share_dir})

@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
+#
+# The ROS part's dependencies and messages: included before catkin_package(). Built in a catkin workspace where ROS is
+# found; sets sks_ros to whether it is.
+set(sks_ros OFF)
+set(sks_message_dependencies)
+set(sks_ros_components
+  diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs message_generation nodelet pcl_ros pluginlib
+  rosbag roscpp sensor_msgs std_msgs std_srvs tf2_eigen tf2_ros tf2_sensor_msgs visualization_msgs)
+if(SKS_CATKIN)
+  find_package(catkin QUIET COMPONENTS ${sks_ros_components})
+  if(catkin_FOUND)
+    set(sks_ros ON)
+  else()
+    message(STATUS "${PROJECT_NAME} is built without its ROS node, of which a dependency is missing: "
+      "scripts/install_dependencies installs it")
+  endif()
+endif()
+if(sks_ros)
+  add_message_files(FILES Detection.msg DetectionArray.msg Status.msg)
+  add_service_files(FILES CaptureView.srv Detect.srv Info.srv LoadCodebook.srv RemoveObject.srv SaveCodebook.srv
+    Train.srv)
+  generate_messages(DEPENDENCIES geometry_msgs sensor_msgs std_msgs)
+  set(sks_message_dependencies geometry_msgs message_runtime sensor_msgs std_msgs)
+endif()

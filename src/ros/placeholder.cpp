@@ -1,0 +1,1 @@
+#include <sks_detector/DetectionArray.h>

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <sks_detector/Status.h>
+#include <sks_detector/progress.hpp>
+
+#include "ros/detector_slot.hpp"
+
+namespace sks_detector {
+
+/// `~status`, latched: published whenever something in it changes. Safe to use from several threads.
+class StatusBoard {
+public:
+  StatusBoard(ros::NodeHandle& private_handle, const DetectorSlot& slot);
+
+  /// Whether clouds are processed at the moment: somebody listens, or ~always_on.
+  void setDetecting(bool detecting);
+  void setEnabled(bool enabled);
+
+  void trainingStarted();
+  void trainingProgress(const sks::ProgressState& progress);  ///< publishes at most ten times a second
+  void trainingEnded();
+
+  /// Objects with captured views that are not trained yet.
+  void setCaptured(const std::vector<std::string>& objects);
+  /// The codebook in the slot was changed.
+  void codebookChanged();
+  /// Remembers an error for people who look later; the caller logs and replies it.
+  void setError(const std::string& message);
+
+  /// A copy of what was published last.
+  Status current() const;
+
+private:
+  void publish(const std::function<void(Status&)>& change);
+
+  const DetectorSlot& slot_;
+  mutable std::mutex mutex_;
+  Status status_;
+  bool detecting_ = false;
+  bool enabled_ = true;
+  bool training_ = false;
+  ros::Publisher publisher_;
+};
+
+}  // namespace sks_detector
