@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sks_detector/Detection.h>
+#include <sks_detector/detection.hpp>
+
+namespace sks_detector {
+
+/// What the core found, as a message; the covariance is left at 0 (unknown).
+Detection toMessage(const sks::Detection& detection);
+
+/// The other way round. A pose or box whose quaternion is zero was never set: the one stands in for the other.
+/// @throws sks::Error(bad_data) naming the object where a number is not finite or neither is set
+sks::Detection toDetection(const Detection& message);
+
+}  // namespace sks_detector
