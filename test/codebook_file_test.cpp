@@ -162,6 +162,12 @@ TEST_F(CodebookFile, SameCodebookSameBytes) {
   EXPECT_EQ(folder_.fileCount(), 1u);
 }
 
+TEST_F(CodebookFile, ChecksumIsKnownBeforeWriting) {
+  const sks::Codebook codebook = makeCodebook();
+  EXPECT_EQ(sks::codebookChecksum(codebook), sks::writeCodebook(path_, codebook));
+  EXPECT_EQ(sks::codebookChecksum(*sks::readCodebook(path_)), sks::codebookChecksum(codebook));
+}
+
 TEST_F(CodebookFile, ThreadsAreNoPartOfACodebook) {
   const std::string first = content();
   sks::Codebook codebook = makeCodebook();

@@ -56,7 +56,7 @@ struct Codebook {
   std::vector<TrainingView> views;
   std::vector<Codeword> words;
   DescriptorMatrix descriptors;  ///< words.size() rows
-  std::uint32_t checksum = 0;    ///< CRC-32C of the file's payload, 0 where it was never stored
+  std::uint32_t checksum = 0;    ///< CRC-32C of the file's payload, 0 where it is not known
 
   const std::string& objectOf(const Codeword& word) const { return objects[views[word.view].object]; }
 };

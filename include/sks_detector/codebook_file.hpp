@@ -16,6 +16,9 @@ constexpr std::uint32_t codebook_file_version = 1;
 /// @throws Error(bad_file) with the path and the system's reason
 std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook);
 
+/// The checksum that writeCodebook() would store. @throws Error(bad_file) if the codebook cannot be stored
+std::uint32_t codebookChecksum(const Codebook& codebook);
+
 /// Maps a codebook file; descriptors stay in the mapping, which lives as long as the result.
 /// Checks magic, version, checksum, FlatBuffers verifier and every index and length before anything is used.
 /// @throws Error(bad_file) naming the path and what is wrong: missing, foreign, truncated, damaged, newer

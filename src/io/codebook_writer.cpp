@@ -74,9 +74,14 @@ void build(flatbuffers::FlatBufferBuilder& builder, const Codebook& codebook) {
       builder, format::CreateCodebook(builder, name, type, columns, settings, objects, view_vector, word_vector));
 }
 
-}  // namespace
+/// What stands in a codebook file, but for the descriptors.
+struct FileParts {
+  flatbuffers::FlatBufferBuilder metadata{1 << 20};
+  std::vector<char> padding;
+  CodebookHeader header;
+};
 
-std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook) {
+FileParts makeParts(const Codebook& codebook, const std::string& path) {
   const auto fail = [&](const std::string& reason) {
     throw Error(ErrorCode::bad_file, "cannot write codebook '" + path + "': " + reason);
   };
@@ -87,31 +92,41 @@ std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook) {
         "the surfaces and codewords of its training clouds exceed 2 GiB; raise training.surface_resolution or "
         "keypoints.grid_size");
   }
-  flatbuffers::FlatBufferBuilder builder(1 << 20);
-  build(builder, codebook);
+  FileParts parts;
+  build(parts.metadata, codebook);
 
   const DescriptorMatrix& descriptors = codebook.descriptors;
-  CodebookHeader header;
+  CodebookHeader& header = parts.header;
   header.version = codebook_file_version;
   header.metadata_offset = sizeof(header);
-  header.metadata_size = builder.GetSize();
+  header.metadata_size = parts.metadata.GetSize();
   const std::uint64_t metadata_end = header.metadata_offset + header.metadata_size;
-  const std::vector<char> padding((codebook_alignment - metadata_end % codebook_alignment) % codebook_alignment, 0);
-  header.descriptors_offset = metadata_end + padding.size();
+  parts.padding.resize((codebook_alignment - metadata_end % codebook_alignment) % codebook_alignment, 0);
+  header.descriptors_offset = metadata_end + parts.padding.size();
   header.descriptors_size = std::uint64_t(descriptors.rows()) * descriptors.cols() * sizeof(float);
   header.file_size = header.descriptors_offset + header.descriptors_size;
-  header.payload_checksum = crc32c(builder.GetBufferPointer(), header.metadata_size);
-  header.payload_checksum = crc32c(padding.data(), padding.size(), header.payload_checksum);
+  header.payload_checksum = crc32c(parts.metadata.GetBufferPointer(), header.metadata_size);
+  header.payload_checksum = crc32c(parts.padding.data(), parts.padding.size(), header.payload_checksum);
   header.payload_checksum = crc32c(descriptors.data(), header.descriptors_size, header.payload_checksum);
   header.header_checksum = header.ownChecksum();
+  return parts;
+}
 
+}  // namespace
+
+std::uint32_t codebookChecksum(const Codebook& codebook) {
+  return makeParts(codebook, codebook.name).header.payload_checksum;
+}
+
+std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook) {
+  const FileParts parts = makeParts(codebook, path);
   AtomicFile file(path);
-  file.write(&header, sizeof(header));
-  file.write(builder.GetBufferPointer(), header.metadata_size);
-  file.write(padding.data(), padding.size());
-  file.write(descriptors.data(), header.descriptors_size);
+  file.write(&parts.header, sizeof(parts.header));
+  file.write(parts.metadata.GetBufferPointer(), parts.header.metadata_size);
+  file.write(parts.padding.data(), parts.padding.size());
+  file.write(codebook.descriptors.data(), parts.header.descriptors_size);
   file.commit();
-  return header.payload_checksum;
+  return parts.header.payload_checksum;
 }
 
 }  // namespace sks
