@@ -14,6 +14,7 @@ struct NodeSettings {
   std::string codebook_directory;
   std::string dataset_directory;
   std::string target_frame;
+  std::string sensor_frame;
   double tf_timeout = 0.2;
   double max_input_age = 0.0;
   double silence_warning = 5.0;
@@ -30,7 +31,10 @@ struct NodeSettings {
     v(s.dataset_directory, "dataset_directory",
       "folder that services train from and keep captured views in; empty: ~/.ros/sks_detector/datasets");
     v(s.target_frame, "target_frame", "frame of the detections; empty: that of the cloud");
-    v(s.tf_timeout, "tf_timeout", Range{0, 60}, "s", "longest wait for the transform to ~target_frame");
+    v(s.sensor_frame, "sensor_frame",
+      "frame of the camera, where clouds come in another frame, e.g. base_link; empty: that of the cloud");
+    v(s.tf_timeout, "tf_timeout", Range{0, 60}, "s",
+      "longest wait for the transforms of ~target_frame and ~sensor_frame");
     v(s.max_input_age, "max_input_age", Range{0, 3600}, "s", "older clouds are dropped; 0: none");
     v(s.silence_warning, "silence_warning", Range{0, 3600}, "s", "a warning after so long without a cloud; 0: never");
     v(s.service_timeout, "service_timeout", Range{0.1, 3600}, "s", "longest wait of a service for the next cloud");

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <functional>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <sks_detector/Status.h>
+
 #include <sks_detector/progress.hpp>
 
 #include "ros/detector_slot.hpp"
@@ -31,14 +35,20 @@ public:
   void setCaptured(const std::vector<std::string>& objects);
   /// The codebook in the slot was changed.
   void codebookChanged();
+  /// Called by codebookChanged(), from its thread.
+  void setCodebookListener(std::function<void()> listener);
   /// Remembers an error for people who look later; the caller logs and replies it.
   void setError(const std::string& message);
 
-  /// A copy of what was published last.
+  /// What the status is at the moment.
   Status current() const;
 
 private:
-  void publish(const std::function<void(Status&)>& change);
+  using Clock = std::chrono::steady_clock;
+
+  /// Makes a change and, if it returns that it is worth telling, publishes.
+  void change(const std::function<bool()>& change);
+  std::uint8_t state() const;
 
   const DetectorSlot& slot_;
   mutable std::mutex mutex_;
@@ -46,6 +56,9 @@ private:
   bool detecting_ = false;
   bool enabled_ = true;
   bool training_ = false;
+  Clock::time_point progress_published_;
+  Clock::time_point error_published_;
+  std::function<void()> codebook_listener_;
   ros::Publisher publisher_;
 };
 

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/detection_output.hpp"
+
+#include <map>
+#include <utility>
+
+#include <geometry_msgs/TransformStamped.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include "ros/cloud_message.hpp"
+#include "ros/markers.hpp"
+
+namespace sks_detector {
+namespace {
+
+// Markers are published again while they hold, so that they go by themselves where the node went without a word.
+constexpr double marker_lifetime = 3.0, marker_period = 1.0;  // [s]
+
+}  // namespace
+
+DetectionOutput::DetectionOutput(ros::NodeHandle& private_handle, std::function<void()> listeners_changed) {
+  const ros::SubscriberStatusCallback changed = [listeners_changed = std::move(listeners_changed)](
+                                                    const ros::SingleSubscriberPublisher&) { listeners_changed(); };
+  detections_ = private_handle.advertise<DetectionArray>("detections", 1, changed, changed);
+  markers_ = private_handle.advertise<visualization_msgs::MarkerArray>("markers", 1, changed, changed);
+  keypoints_ = private_handle.advertise<sensor_msgs::PointCloud2>("keypoints", 1, changed, changed);
+  votes_ = private_handle.advertise<sensor_msgs::PointCloud2>("votes", 1, changed, changed);
+  keep_markers_ =
+      private_handle.createTimer(ros::Duration(marker_period), [this](const ros::TimerEvent&) { keepMarkers(); });
+}
+
+DetectionOutput::~DetectionOutput() {
+  keep_markers_.stop();
+  clearMarkers();
+}
+
+bool DetectionOutput::listened() const {
+  return inspected() || detections_.getNumSubscribers() > 0 || markers_.getNumSubscribers() > 0;
+}
+
+bool DetectionOutput::inspected() const {
+  return keypoints_.getNumSubscribers() > 0 || votes_.getNumSubscribers() > 0;
+}
+
+void DetectionOutput::publish(const FrameResult& result, bool broadcast) {
+  const DetectionArray& detections = result.detections;
+  detections_.publish(detections);
+  {
+    const std::lock_guard<std::mutex> lock(shown_mutex_);
+    shown_ = detections;
+    publishMarkers(shown_);
+  }
+  if (keypoints_.getNumSubscribers() > 0) keypoints_.publish(toMessage(result.keypoints, detections.header));
+  if (votes_.getNumSubscribers() > 0) votes_.publish(toMessage(result.votes, detections.header));
+  if (broadcast) broadcastPoses(detections);
+}
+
+void DetectionOutput::clearMarkers() {
+  const std::lock_guard<std::mutex> lock(shown_mutex_);
+  shown_.detections.clear();
+  markers_.publish(clearingMarkers(shown_.header));
+}
+
+void DetectionOutput::publishMarkers(const DetectionArray& detections) {
+  if (markers_.getNumSubscribers() > 0) markers_.publish(detectionMarkers(detections, ros::Duration(marker_lifetime)));
+}
+
+void DetectionOutput::broadcastPoses(const DetectionArray& detections) {
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  std::map<std::string, int> count;
+  for (const Detection& detection : detections.detections) {
+    const int number = ++count[detection.object];
+    geometry_msgs::TransformStamped transform;
+    transform.header = detections.header;
+    transform.child_frame_id = detection.object + (number > 1 ? "_" + std::to_string(number) : "");
+    transform.transform.translation.x = detection.pose.pose.position.x;
+    transform.transform.translation.y = detection.pose.pose.position.y;
+    transform.transform.translation.z = detection.pose.pose.position.z;
+    transform.transform.rotation = detection.pose.pose.orientation;
+    transforms.push_back(transform);
+  }
+  if (!transforms.empty()) broadcaster_.sendTransform(transforms);
+}
+
+void DetectionOutput::keepMarkers() {
+  const std::lock_guard<std::mutex> lock(shown_mutex_);
+  if (!shown_.detections.empty()) publishMarkers(shown_);
+}
+
+}  // namespace sks_detector

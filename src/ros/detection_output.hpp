@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <mutex>
+
+#include <ros/node_handle.h>
+#include <ros/publisher.h>
+#include <ros/timer.h>
+#include <sks_detector/DetectionArray.h>
+#include <tf2_ros/transform_broadcaster.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include "ros/frame_detector.hpp"
+
+namespace sks_detector {
+
+/// What the node publishes of each frame: `~detections`, `~markers`, `~keypoints`, `~votes` and /tf. Safe to use from
+/// several threads.
+class DetectionOutput {
+public:
+  /// @param listeners_changed called from the callback queue when somebody came to listen or left
+  DetectionOutput(ros::NodeHandle& private_handle, std::function<void()> listeners_changed);
+  /// Clears the markers, unless ROS has been shut down before: then rviz lets them go a few seconds later.
+  ~DetectionOutput();
+  DetectionOutput(const DetectionOutput&) = delete;
+  DetectionOutput& operator=(const DetectionOutput&) = delete;
+
+  /// Whether somebody listens to anything.
+  bool listened() const;
+  /// Whether somebody listens to `~keypoints` or `~votes`.
+  bool inspected() const;
+
+  /// @param broadcast also each detection's pose on /tf: `object`, `object_2` ...
+  void publish(const FrameResult& result, bool broadcast);
+  /// Takes the markers out of rviz.
+  void clearMarkers();
+
+private:
+  void publishMarkers(const DetectionArray& detections);
+  void broadcastPoses(const DetectionArray& detections);
+  void keepMarkers();
+
+  ros::Publisher detections_;
+  ros::Publisher markers_;
+  ros::Publisher keypoints_;
+  ros::Publisher votes_;
+  tf2_ros::TransformBroadcaster broadcaster_;
+  ros::Timer keep_markers_;
+
+  std::mutex shown_mutex_;
+  DetectionArray shown_;  // by the markers
+};
+
+}  // namespace sks_detector

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/detector_node.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <ros/console.h>
+
+#include <sks_detector/codebook_file.hpp>
+
+#include "core/value_text.hpp"
+
+namespace sks_detector {
+namespace {
+
+constexpr double watch_period = 0.5;  // [s]
+
+ros::NodeHandle withQueue(ros::NodeHandle handle, ros::CallbackQueue& queue) {
+  handle.setCallbackQueue(&queue);
+  return handle;
+}
+
+/// A node leaves one core to the rest of the robot, unless it is told how many threads to use.
+sks::Settings withThreads(sks::Settings settings) {
+  if (settings.threads == 0) settings.threads = std::max(1, sks::threadCount(settings) - 1);
+  return settings;
+}
+
+double secondsSince(CloudInput::Clock::time_point start) {
+  return std::chrono::duration<double>(CloudInput::Clock::now() - start).count();
+}
+
+}  // namespace
+
+DetectorNode::DetectorNode(const ros::NodeHandle& private_handle)
+    : DetectorNode(private_handle, readParameters(private_handle)) {}
+
+DetectorNode::DetectorNode(const ros::NodeHandle& private_handle, const ParameterReading& parameters)
+    : control_handle_(withQueue(private_handle, control_queue_)),
+      settings_(parameters.configuration.node),
+      slot_(withThreads(parameters.configuration.detector)),
+      board_(control_handle_, slot_),
+      errors_(board_),
+      input_(private_handle),
+      frame_detector_(slot_, transforms_),
+      output_(control_handle_, [this] { updateWanted(); }),
+      diagnostics_(control_handle_, board_, input_, statistics_, [this] { return nodeSettings().silence_warning; }),
+      control_spinner_(1, &control_queue_) {
+  for (const std::string& warning : parameters.warnings) ROS_WARN_STREAM(warning);
+  for (const std::string& error : parameters.errors) refuse(error);
+  loadCodebook(parameters);
+  reconfigure_ = std::make_unique<Reconfigure>(
+      control_handle_, configuration(), [this](const Configuration& wanted) { return apply(wanted); },
+      [this](const std::string& reason) { refuse(reason); });
+  board_.setCodebookListener([this] { reconfigure_->update(configuration()); });
+  listenToTransforms();
+  timer_ = control_handle_.createSteadyTimer(ros::WallDuration(watch_period),
+                                             [this](const ros::SteadyTimerEvent&) { watch(); });
+  updateWanted();
+  control_spinner_.start();
+  worker_ = std::thread([this] { work(); });
+}
+
+DetectorNode::~DetectorNode() {
+  input_.stop();
+  transforms_.stop();
+  timer_.stop();
+  control_spinner_.stop();
+  worker_.join();
+}
+
+void DetectorNode::loadCodebook(const ParameterReading& parameters) {
+  const std::string file = nodeSettings().codebook;
+  if (file.empty()) {
+    ROS_WARN_STREAM("there is no codebook, so nothing is detected: set "
+                    << control_handle_.resolveName("codebook") << ", or call " << control_handle_.resolveName("train")
+                    << " or " << control_handle_.resolveName("load_codebook"));
+    return;
+  }
+  try {
+    slot_.setCodebook(sks::readCodebook(file), file);
+  } catch (const std::exception& error) {
+    refuse(control_handle_.resolveName("codebook") + ": " + error.what());
+    return;
+  }
+  board_.codebookChanged();
+  ROS_INFO_STREAM("detecting with the codebook " << slot_.codebookName() << " of '" << file << "'");
+  for (const std::string& key : sks::bindingConflicts(slot_.settings(), parameters.configuration.detector)) {
+    const auto& given = parameters.given;
+    if (std::find(given.begin(), given.end(), key) == given.end()) continue;
+    ROS_WARN_STREAM(key << " = " << sks::getSetting(parameters.configuration.detector, key)
+                        << " is only used for training: the codebook in use was trained with "
+                        << sks::getSetting(slot_.settings(), key));
+  }
+}
+
+void DetectorNode::work() {
+  while (const std::optional<CloudInput::Frame> frame = input_.take()) {
+    try {
+      process(*frame);
+    } catch (const std::exception& error) {
+      errors_.error("frame", "cloud of " + input_.topic() + ": " + error.what());
+    }
+  }
+}
+
+void DetectorNode::process(const CloudInput::Frame& frame) {
+  watchTime();
+  const NodeSettings settings = nodeSettings();
+  const std_msgs::Header& header = frame.cloud->header;
+  const ros::Time start = ros::Time::now();
+  if (start < frame.received_at) return;  // it came before time jumped back
+  const double age = header.stamp.isZero() ? 0 : (start - header.stamp).toSec();
+  if (settings.max_input_age > 0 && age > settings.max_input_age) {
+    statistics_.tooOld(age);
+    errors_.warning("age", "clouds of " + input_.topic() + " are dropped: they are older than ~max_input_age");
+    return;
+  }
+
+  FrameResult result;
+  const bool usable = detect(*frame.cloud, settings, result);
+  if (ros::Time::now() < start || !enabled_) return;
+  result.detections.processing_time = secondsSince(frame.received);
+  output_.publish(result, settings.publish_tf);
+  if (usable) {
+    statistics_.processed(secondsSince(frame.received), age + secondsSince(frame.received));
+  } else {
+    statistics_.unusable();
+  }
+}
+
+bool DetectorNode::detect(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings, FrameResult& result) {
+  try {
+    result = frame_detector_.detect(cloud, settings, output_.inspected());
+    return true;
+  } catch (const std::exception& error) {
+    errors_.error("cloud", "cloud of " + input_.topic() + ": " + error.what());
+  }
+  result.detections.header = FrameDetector::answerHeader(cloud.header, settings);
+  result.detections.codebook = slot_.codebookName();
+  return false;
+}
+
+DetectionArray DetectorNode::detect(const sensor_msgs::PointCloud2& cloud) {
+  const auto start = CloudInput::Clock::now();
+  DetectionArray detections = frame_detector_.detect(cloud, nodeSettings(), false).detections;
+  detections.processing_time = secondsSince(start);
+  return detections;
+}
+
+void DetectorNode::setEnabled(bool enabled) {
+  enabled_ = enabled;
+  board_.setEnabled(enabled);
+  updateWanted();
+  if (!enabled) output_.clearMarkers();
+}
+
+void DetectorNode::updateWanted() {
+  const std::lock_guard<std::mutex> lock(wanting_);
+  const NodeSettings settings = nodeSettings();
+  const bool wanted = enabled_ && (settings.always_on || settings.publish_tf || output_.listened());
+  input_.setWanted(wanted);
+  board_.setDetecting(wanted);
+}
+
+void DetectorNode::watch() {
+  try {
+    watchTime();
+    watchSilence();
+    diagnostics_.update();
+  } catch (const std::exception& error) {
+    errors_.error("watch", error.what());
+  }
+}
+
+void DetectorNode::watchTime() {
+  const double back = time_watch_.jumpedBack();
+  if (back == 0) return;
+  ROS_WARN_STREAM("time jumped back by " << back << " s: transforms and waiting clouds are forgotten");
+  transforms_.clear();
+  statistics_.reset();
+}
+
+void DetectorNode::watchSilence() {
+  const double limit = nodeSettings().silence_warning, silence = input_.silence();
+  if (limit == 0 || silence <= limit) return;
+  const std::uint32_t publishers = input_.publishers();
+  errors_.warning("silence", "no cloud on " + input_.topic() + " for more than " + sks::toText(limit) + " s: it has " +
+                                 std::to_string(publishers) + (publishers == 1 ? " publisher" : " publishers"));
+}
+
+void DetectorNode::listenToTransforms() {
+  const NodeSettings settings = nodeSettings();
+  if (!settings.target_frame.empty() || !settings.sensor_frame.empty()) transforms_.listen();
+}
+
+NodeSettings DetectorNode::nodeSettings() const {
+  const std::lock_guard<std::mutex> lock(settings_mutex_);
+  return settings_;
+}
+
+Configuration DetectorNode::configuration() const {
+  return {slot_.settings(), nodeSettings()};
+}
+
+Configuration DetectorNode::apply(const Configuration& wanted) {
+  slot_.setSettings(withThreads(wanted.detector));
+  {
+    const std::lock_guard<std::mutex> lock(settings_mutex_);
+    settings_ = wanted.node;
+  }
+  listenToTransforms();
+  updateWanted();
+  return configuration();
+}
+
+void DetectorNode::refuse(const std::string& reason) {
+  ROS_ERROR_STREAM(reason);
+  board_.setError(reason);
+}
+
+}  // namespace sks_detector

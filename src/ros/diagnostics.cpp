@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/diagnostics.hpp"
+
+#include <fstream>
+
+#include <unistd.h>
+
+#include <sks_detector/Status.h>
+
+namespace sks_detector {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr std::size_t rate_window = 10;  // updates
+
+/// Resident memory of the process [MB].
+double residentMemory() {
+  std::ifstream statm("/proc/self/statm");
+  double pages = 0, resident = 0;
+  statm >> pages >> resident;
+  return resident * double(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+const char* describe(std::uint8_t state) {
+  switch (state) {
+    case sks_detector::Status::NO_CODEBOOK:
+      return "no codebook";
+    case sks_detector::Status::READY:
+      return "ready: nobody listens, not subscribed";
+    case sks_detector::Status::DETECTING:
+      return "detecting";
+    case sks_detector::Status::DISABLED:
+      return "disabled by ~enable";
+    default:
+      return "training";
+  }
+}
+
+}  // namespace
+
+Diagnostics::Diagnostics(const ros::NodeHandle& private_handle, const StatusBoard& board, const CloudInput& input,
+                         const FrameStatistics& statistics, std::function<double()> silence_limit)
+    : board_(board),
+      input_(input),
+      statistics_(statistics),
+      silence_limit_(std::move(silence_limit)),
+      updater_(private_handle, private_handle, private_handle.getNamespace()) {
+  updater_.setHardwareID("none");
+  updater_.add("State", this, &Diagnostics::reportState);
+  updater_.add("Input", this, &Diagnostics::reportInput);
+  updater_.add("Detection", this, &Diagnostics::reportDetection);
+  updater_.add("Codebook", this, &Diagnostics::reportCodebook);
+  updater_.add("Process", this, &Diagnostics::reportProcess);
+}
+
+void Diagnostics::update() {
+  updater_.force_update();  // its own period goes by the clock of ROS, which may stand still or jump
+}
+
+void Diagnostics::reset() {
+  received_.clear();
+}
+
+void Diagnostics::reportState(Status& status) {
+  const sks_detector::Status state = board_.current();
+  status.summary(state.state == sks_detector::Status::NO_CODEBOOK ? DiagnosticStatus::ERROR : DiagnosticStatus::OK,
+                 describe(state.state));
+  if (!state.progress.empty()) {
+    status.add("training", state.progress);
+    status.addf("training progress [%]", "%.0f", 100.0 * double(state.progress_fraction));
+  }
+  status.add("last error", state.last_error.empty() ? "none" : state.last_error);
+}
+
+void Diagnostics::reportInput(Status& status) {
+  const CloudInput::Counts counts = input_.counts();
+  const FrameStatistics::Summary summary = statistics_.summary();
+  const double silence = input_.silence(), limit = silence_limit_();
+  const std::uint32_t publishers = input_.publishers();
+  if (!input_.subscribed()) {
+    status.summary(DiagnosticStatus::OK, "not subscribed");
+  } else if (limit > 0 && silence > limit) {
+    status.summaryf(DiagnosticStatus::WARN, "no cloud on %s for %.0f s (%s)", input_.topic().c_str(), silence,
+                    counted(publishers, "publisher").c_str());
+  } else if (summary.too_old > too_old_) {
+    status.summaryf(DiagnosticStatus::WARN, "clouds are dropped by ~max_input_age: they are %.2f s old", summary.age);
+  } else {
+    status.summary(DiagnosticStatus::OK, "receiving");
+  }
+  too_old_ = summary.too_old;
+  status.add("topic", input_.topic());
+  status.add("publishers", publishers);
+  status.addf("rate [Hz]", "%.2f", inputRate());
+  status.addf("age [s]", "%.3f", summary.age);
+  status.add("received", counts.received);
+  status.add("dropped for newer ones", counts.dropped);
+  status.add("dropped as too old", summary.too_old);
+}
+
+void Diagnostics::reportDetection(Status& status) {
+  const FrameStatistics::Summary summary = statistics_.summary();
+  if (summary.unusable > unusable_) {
+    status.summary(DiagnosticStatus::ERROR, "clouds cannot be used: " + board_.current().last_error);
+  } else if (summary.frames == 0) {
+    status.summary(DiagnosticStatus::OK, "no cloud yet");
+  } else {
+    status.summaryf(DiagnosticStatus::OK, "%.0f ms (median)", 1000 * summary.latency_p50);
+  }
+  unusable_ = summary.unusable;
+  status.addf("latency p50 [ms]", "%.1f", 1000 * summary.latency_p50);
+  status.addf("latency p95 [ms]", "%.1f", 1000 * summary.latency_p95);
+  status.addf("latency max [ms]", "%.1f", 1000 * summary.latency_max);
+  status.add("processed", summary.processed);
+  status.add("unusable", summary.unusable);
+}
+
+void Diagnostics::reportCodebook(Status& status) {
+  const sks_detector::Status state = board_.current();
+  if (state.codebook.empty()) {
+    status.summary(DiagnosticStatus::ERROR, "no codebook: set ~codebook, call ~load_codebook, or train one by ~train");
+    return;
+  }
+  status.summary(DiagnosticStatus::OK, state.codebook);
+  status.add("file", state.codebook_file.empty() ? "not saved" : state.codebook_file);
+  status.add("objects", state.objects.size());
+  status.add("words", state.words);
+}
+
+void Diagnostics::reportProcess(Status& status) {
+  const double memory = residentMemory();
+  status.summaryf(DiagnosticStatus::OK, "%.0f MB", memory);
+  status.addf("resident memory [MB]", "%.1f", memory);
+}
+
+double Diagnostics::inputRate() {
+  received_.emplace_back(Clock::now(), input_.counts().received);
+  if (received_.size() > rate_window) received_.pop_front();
+  const double seconds = std::chrono::duration<double>(received_.back().first - received_.front().first).count();
+  return seconds > 0 ? double(received_.back().second - received_.front().second) / seconds : 0;
+}
+
+}  // namespace sks_detector

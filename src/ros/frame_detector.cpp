@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/frame_detector.hpp"
+
+#include <utility>
+
+#include <sks_detector/error.hpp>
+
+#include "ros/cloud_message.hpp"
+#include "ros/detection_message.hpp"
+#include "ros/markers.hpp"
+
+namespace sks_detector {
+namespace {
+
+void transform(const Eigen::Isometry3d& T_target_cloud, sks::Detection& detection) {
+  detection.T_scene_model = T_target_cloud * detection.T_scene_model;
+  detection.T_scene_box = T_target_cloud * detection.T_scene_box;
+}
+
+sks::Cloud pointsCloud(const Eigen::Isometry3d& T_target_cloud, std::vector<Eigen::Vector3f> points) {
+  const Eigen::Isometry3f T = T_target_cloud.cast<float>();
+  for (Eigen::Vector3f& point : points) point = T * point;
+  sks::Cloud cloud;
+  cloud.width = std::uint32_t(points.size());
+  cloud.points = std::move(points);
+  return cloud;
+}
+
+std::vector<sks::Rgb> voteColors(const sks::Inspection& inspection, const std::vector<std::string>& objects) {
+  std::vector<sks::Rgb> palette, colors;
+  for (const std::string& object : objects) palette.push_back(objectColor(object));
+  for (const std::uint32_t object : inspection.vote_objects) colors.push_back(palette.at(object));
+  return colors;
+}
+
+}  // namespace
+
+FrameResult FrameDetector::detect(const sensor_msgs::PointCloud2& message, const NodeSettings& settings,
+                                  bool inspect) const {
+  const std::string cloud_frame = withoutSlash(message.header.frame_id);
+  const ros::Time& stamp = message.header.stamp;
+  const auto detector = slot_.detector();
+  if (!detector) {
+    throw sks::Error(sks::ErrorCode::bad_usage,
+                     "there is no codebook: set ~codebook, call ~load_codebook, or train one by ~train");
+  }
+  sks::Cloud cloud = toCloud(message);
+  if (!settings.sensor_frame.empty()) {
+    const std::string sensor_frame = withoutSlash(settings.sensor_frame);
+    cloud.sensor_origin =
+        transforms_.lookup(cloud_frame, sensor_frame, stamp, settings.tf_timeout).translation().cast<float>();
+  }
+
+  sks::Inspection inspection;
+  const double threshold = detector->settings().detection.threshold;
+  std::vector<sks::Detection> found = detector->detect(cloud, inspect ? &inspection : nullptr).above(threshold);
+
+  FrameResult result;
+  DetectionArray& answer = result.detections;
+  answer.header = answerHeader(message.header, settings);
+  answer.codebook = nameWithChecksum(detector->codebook());
+  // looked up last: while detecting the transform had time to arrive
+  const Eigen::Isometry3d T_target_cloud =
+      transforms_.lookup(answer.header.frame_id, cloud_frame, stamp, settings.tf_timeout);
+  result.keypoints = pointsCloud(T_target_cloud, std::move(inspection.keypoints));
+  result.votes = pointsCloud(T_target_cloud, std::move(inspection.votes));
+  result.votes.colors = voteColors(inspection, detector->codebook().objects);
+  for (sks::Detection& detection : found) {
+    transform(T_target_cloud, detection);
+    answer.detections.push_back(toMessage(detection));
+  }
+  return result;
+}
+
+std_msgs::Header FrameDetector::answerHeader(const std_msgs::Header& cloud, const NodeSettings& settings) {
+  std_msgs::Header header = cloud;
+  header.frame_id = withoutSlash(settings.target_frame.empty() ? cloud.frame_id : settings.target_frame);
+  return header;
+}
+
+}  // namespace sks_detector

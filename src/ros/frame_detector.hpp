@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sensor_msgs/PointCloud2.h>
+#include <sks_detector/DetectionArray.h>
+#include <std_msgs/Header.h>
+
+#include <sks_detector/cloud.hpp>
+
+#include "ros/detector_slot.hpp"
+#include "ros/node_settings.hpp"
+#include "ros/transforms.hpp"
+
+namespace sks_detector {
+
+/// What one cloud led to, in ~target_frame.
+struct FrameResult {
+  DetectionArray detections;
+  sks::Cloud keypoints;  ///< empty where they were not asked for, like the votes
+  sks::Cloud votes;      ///< in the colours of their objects
+};
+
+/// From a cloud's message to detections, with the detector that is in the slot at the moment. Safe to use from several
+/// threads.
+class FrameDetector {
+public:
+  /// @param slot, transforms must outlive it
+  FrameDetector(const DetectorSlot& slot, Transforms& transforms) : slot_(slot), transforms_(transforms) {}
+
+  /// @throws sks::Error without a codebook, for an unusable cloud, or where a transform is missing
+  FrameResult detect(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings, bool inspect) const;
+
+  /// The header of the answer to a cloud: its stamp, in ~target_frame or the cloud's own frame.
+  static std_msgs::Header answerHeader(const std_msgs::Header& cloud, const NodeSettings& settings);
+
+private:
+  const DetectorSlot& slot_;
+  Transforms& transforms_;
+};
+
+}  // namespace sks_detector

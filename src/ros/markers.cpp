@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/markers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <tf2_eigen/tf2_eigen.h>
+
+namespace sks_detector {
+namespace {
+
+using visualization_msgs::Marker;
+
+std_msgs::ColorRGBA toMessage(const sks::Rgb& color) {
+  std_msgs::ColorRGBA message;
+  message.r = float(color.r) / 255;
+  message.g = float(color.g) / 255;
+  message.b = float(color.b) / 255;
+  message.a = 1;
+  return message;
+}
+
+geometry_msgs::Point toPoint(const Eigen::Vector3d& p) {
+  geometry_msgs::Point point;
+  point.x = p.x();
+  point.y = p.y();
+  point.z = p.z();
+  return point;
+}
+
+Eigen::Vector3d sizeOf(const Detection& detection) {
+  return {detection.box_size.x, detection.box_size.y, detection.box_size.z};
+}
+
+/// A marker with what all of them have in common, its pose the centre of the box.
+Marker newMarker(const DetectionArray& detections, std::size_t index, const char* part, const ros::Duration& lifetime) {
+  Marker marker;
+  marker.header = detections.header;
+  marker.ns = part;
+  marker.id = int(index);
+  marker.action = Marker::ADD;
+  marker.pose = detections.detections[index].box_center;
+  marker.lifetime = lifetime;
+  return marker;
+}
+
+void addBox(Marker marker, const Detection& detection, visualization_msgs::MarkerArray& array) {
+  marker.type = Marker::LINE_LIST;
+  marker.scale.x = std::max(0.002, 0.015 * sizeOf(detection).maxCoeff());
+  marker.color = toMessage(objectColor(detection.object));
+  const Eigen::Vector3d half = 0.5 * sizeOf(detection);
+  for (int axis = 0; axis < 3; ++axis) {  // the four edges along each axis
+    for (const double u : {-1.0, 1.0}) {
+      for (const double v : {-1.0, 1.0}) {
+        Eigen::Vector3d corner = half;
+        corner[(axis + 1) % 3] *= u;
+        corner[(axis + 2) % 3] *= v;
+        marker.points.push_back(toPoint(corner));
+        corner[axis] *= -1;
+        marker.points.push_back(toPoint(corner));
+      }
+    }
+  }
+  array.markers.push_back(std::move(marker));
+}
+
+void addAxes(Marker marker, const Detection& detection, visualization_msgs::MarkerArray& array) {
+  marker.type = Marker::LINE_LIST;
+  marker.pose.orientation = detection.pose.pose.orientation;
+  const double length = 0.6 * sizeOf(detection).maxCoeff();
+  marker.scale.x = std::max(0.002, 0.04 * length);
+  marker.color = toMessage({255, 255, 255});
+  const sks::Rgb colors[] = {{255, 40, 40}, {40, 220, 40}, {60, 90, 255}};
+  for (int axis = 0; axis < 3; ++axis) {
+    marker.points.push_back(toPoint(Eigen::Vector3d::Zero()));
+    marker.points.push_back(toPoint(length * Eigen::Vector3d::Unit(axis)));
+    marker.colors.insert(marker.colors.end(), 2, toMessage(colors[axis]));
+  }
+  array.markers.push_back(std::move(marker));
+}
+
+void addLabel(Marker marker, const Detection& detection, visualization_msgs::MarkerArray& array) {
+  marker.type = Marker::TEXT_VIEW_FACING;
+  marker.scale.z = std::max(0.02, 0.2 * sizeOf(detection).maxCoeff());
+  marker.color = toMessage({255, 255, 255});
+  char score[16];
+  std::snprintf(score, sizeof(score), " %.2f", double(detection.score));
+  marker.text = detection.object + score;
+  array.markers.push_back(std::move(marker));
+}
+
+}  // namespace
+
+sks::Rgb objectColor(const std::string& object) {
+  std::uint32_t hash = 2166136261u;  // FNV-1a: the same on every machine, unlike std::hash
+  for (const char c : object) hash = (hash ^ std::uint8_t(c)) * 16777619u;
+  const double hue = 6.0 * double(hash % 3600) / 3600.0;
+  const auto channel = [&](double shift) {
+    const double phase = std::fmod(hue + shift, 6.0);
+    return std::uint8_t(std::lround(255 * std::clamp(std::abs(phase - 3.0) - 1.0, 0.25, 1.0)));
+  };
+  return {channel(0), channel(4), channel(2)};
+}
+
+visualization_msgs::MarkerArray clearingMarkers(const std_msgs::Header& header) {
+  visualization_msgs::MarkerArray array;
+  array.markers.resize(1);
+  array.markers[0].header = header;
+  array.markers[0].action = Marker::DELETEALL;
+  array.markers[0].pose.orientation.w = 1;
+  return array;
+}
+
+visualization_msgs::MarkerArray detectionMarkers(const DetectionArray& detections, const ros::Duration& lifetime) {
+  visualization_msgs::MarkerArray array = clearingMarkers(detections.header);
+  for (std::size_t i = 0; i < detections.detections.size(); ++i) {
+    const Detection& detection = detections.detections[i];
+    addBox(newMarker(detections, i, "boxes", lifetime), detection, array);
+    addAxes(newMarker(detections, i, "axes", lifetime), detection, array);
+    addLabel(newMarker(detections, i, "labels", lifetime), detection, array);
+  }
+  return array;
+}
+
+}  // namespace sks_detector

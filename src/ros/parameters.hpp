@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <ros/node_handle.h>
+
+#include "ros/configuration.hpp"
+
+namespace sks_detector {
+
+/// What the private parameters say.
+struct ParameterReading {
+  Configuration configuration;        ///< defaults where nothing, or nothing usable, was given
+  std::vector<std::string> given;     ///< keys that were taken from the parameter server
+  std::vector<std::string> errors;    ///< values that cannot be used, and why
+  std::vector<std::string> warnings;  ///< unknown names, with the nearest known one
+};
+
+/// Reads all private parameters. The detector's settings are one set: a wrong value among them leaves all of them at
+/// their defaults. Of the node's own settings each stands for itself.
+ParameterReading readParameters(const ros::NodeHandle& private_handle);
+
+/// Keeps the parameter server in step with what is in force.
+class ParameterMirror {
+public:
+  explicit ParameterMirror(const ros::NodeHandle& private_handle) : private_handle_(private_handle) {}
+
+  /// Writes what differs from what was written last; at first everything.
+  void write(const Configuration& configuration);
+
+private:
+  ros::NodeHandle private_handle_;
+  std::map<std::string, std::string> written_;
+};
+
+}  // namespace sks_detector

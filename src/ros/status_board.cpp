@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/status_board.hpp"
+
+#include <utility>
+
+#include <ros/time.h>
+
+namespace sks_detector {
+namespace {
+
+constexpr std::chrono::milliseconds progress_period(100);
+constexpr std::chrono::seconds same_error_period(1);
+
+}  // namespace
+
+StatusBoard::StatusBoard(ros::NodeHandle& private_handle, const DetectorSlot& slot)
+    : slot_(slot), publisher_(private_handle.advertise<Status>("status", 1, true)) {
+  codebookChanged();
+}
+
+void StatusBoard::setDetecting(bool detecting) {
+  change([&] { return std::exchange(detecting_, detecting) != detecting; });
+}
+
+void StatusBoard::setEnabled(bool enabled) {
+  change([&] { return std::exchange(enabled_, enabled) != enabled; });
+}
+
+void StatusBoard::trainingStarted() {
+  change([&] {
+    training_ = true;
+    status_.progress = "training";
+    status_.progress_fraction = 0;
+    return true;
+  });
+}
+
+void StatusBoard::trainingProgress(const sks::ProgressState& progress) {
+  change([&] {
+    const std::string of = progress.total > 0 ? " of " + std::to_string(progress.total) : "";
+    status_.progress =
+        progress.stage + " " + std::to_string(progress.done) + of + (progress.item.empty() ? "" : ": " + progress.item);
+    status_.progress_fraction = progress.total > 0 ? float(progress.done) / float(progress.total) : 0;
+    if (Clock::now() - progress_published_ < progress_period) return false;
+    progress_published_ = Clock::now();
+    return true;
+  });
+}
+
+void StatusBoard::trainingEnded() {
+  change([&] {
+    training_ = false;
+    status_.progress.clear();
+    status_.progress_fraction = 0;
+    return true;
+  });
+}
+
+void StatusBoard::setCaptured(const std::vector<std::string>& objects) {
+  change([&] {
+    status_.captured = objects;
+    return true;
+  });
+}
+
+void StatusBoard::codebookChanged() {
+  change([&] {
+    const auto detector = slot_.detector();
+    status_.codebook = slot_.codebookName();
+    status_.codebook_file = slot_.codebookFile();
+    status_.objects = detector ? detector->codebook().objects : std::vector<std::string>();
+    status_.words = detector ? std::uint32_t(detector->codebook().words.size()) : 0;
+    return true;
+  });
+  std::function<void()> listener;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    listener = codebook_listener_;
+  }
+  if (listener) listener();
+}
+
+void StatusBoard::setCodebookListener(std::function<void()> listener) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  codebook_listener_ = std::move(listener);
+}
+
+void StatusBoard::setError(const std::string& message) {
+  change([&] {
+    const bool same = std::exchange(status_.last_error, message) == message;
+    status_.last_error_stamp = ros::Time::now();
+    if (same && Clock::now() - error_published_ < same_error_period) return false;
+    error_published_ = Clock::now();
+    return true;
+  });
+}
+
+Status StatusBoard::current() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return status_;
+}
+
+void StatusBoard::change(const std::function<bool()>& change) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const bool worth_telling = change();
+  status_.state = state();
+  status_.header.stamp = ros::Time::now();
+  if (worth_telling) publisher_.publish(status_);
+}
+
+std::uint8_t StatusBoard::state() const {
+  if (training_) return Status::TRAINING;
+  if (!enabled_) return Status::DISABLED;
+  if (status_.codebook.empty()) return Status::NO_CODEBOOK;
+  return detecting_ ? Status::DETECTING : Status::READY;
+}
+
+}  // namespace sks_detector
