@@ -68,7 +68,7 @@ def plot_threshold_sweep(result, path):
 
 def plot_times(result, path):
     figure, axes = plt.subplots(figsize=(8, 4))
-    stages = [stage for stage in STAGES if stage in result['time_ms']]
+    stages = [stage for stage in STAGES if stage in result['time_ms']] or ['total']
     times = [result['time_ms'][stage] for stage in stages]
     rows = range(len(stages))
     axes.barh(rows, [time['mean'] for time in times], color='C0', label='mean')

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <memory>
 
+#include <sks_detector/cloud_io.hpp>
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/dataset.hpp>
 #include <sks_detector/detector.hpp>
@@ -68,7 +69,9 @@ void run(const Options& options) {
   const nlohmann::json json = evaluationJson(evaluation);
   options.json.write(json);
   if (!options.json.onStdout()) print(evaluationTable(evaluation));
-  if (!options.plot.empty()) writePlots(options.plot, data_set, evaluation, json, bar.callback());
+  if (options.plot.empty()) return;
+  const auto clouds = [&](std::size_t scene) { return readCloud(data_set.scenes[scene].path, data_set.scale); };
+  writePlots(options.plot, clouds, evaluation, json, bar.callback());
 }
 
 }  // namespace

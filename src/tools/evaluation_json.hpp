@@ -11,4 +11,7 @@ namespace sks::tools {
 /// `peak_memory_mb`, the same detections give the same JSON, whatever the number of threads.
 nlohmann::json evaluationJson(const Evaluation& evaluation);
 
+/// The same of recorded detections, of which settings, memory and the times of the stages are not known.
+nlohmann::json recordedJson(const Evaluation& evaluation);
+
 }  // namespace sks::tools

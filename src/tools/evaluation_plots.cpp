@@ -4,7 +4,6 @@
 #include <cctype>
 #include <filesystem>
 
-#include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
 #include <sks_detector/file.hpp>
 
@@ -48,7 +47,7 @@ void preparePlots(const std::string& folder) {
   runScript({"--check"});
 }
 
-void writePlots(const std::string& folder, const DataSet& data_set, const Evaluation& evaluation,
+void writePlots(const std::string& folder, const SceneClouds& clouds, const Evaluation& evaluation,
                 const nlohmann::json& json, const Progress& progress) {
   const std::filesystem::path plots(folder);
   const std::string file = (plots / "evaluation.json").string();
@@ -60,8 +59,9 @@ void writePlots(const std::string& folder, const DataSet& data_set, const Evalua
   for (std::size_t i = 0; i < count; ++i) {
     const SceneResult& result = evaluation.scenes[i];
     report(progress, {"drawing", result.scene.name, i, count});
-    saveScenePicture((pictures / pictureName(result.scene.name, i)).string(),
-                     readCloud(result.scene.path, data_set.scale), result, evaluation.threshold);
+    const Cloud cloud = clouds(i);
+    if (cloud.size() == 0) continue;
+    saveScenePicture((pictures / pictureName(result.scene.name, i)).string(), cloud, result, evaluation.threshold);
   }
   report(progress, {"drawing", "", count, count});
 }

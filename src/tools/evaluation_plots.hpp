@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
-#include <sks_detector/dataset.hpp>
+#include <sks_detector/cloud.hpp>
 #include <sks_detector/evaluation.hpp>
 #include <sks_detector/progress.hpp>
 
@@ -15,9 +16,12 @@ namespace sks::tools {
 /// @throws Error(bad_file) naming the folder, or what has to be installed
 void preparePlots(const std::string& folder);
 
+/// The cloud of a scene, by its index in Evaluation::scenes; an empty one where there is none to draw.
+using SceneClouds = std::function<Cloud(std::size_t scene)>;
+
 /// Writes evaluation.json, the plots of scripts/plot_evaluation.py and one picture a scene (scenes/NAME.png).
 /// @throws Error(bad_file), Error(cancelled)
-void writePlots(const std::string& folder, const DataSet& data_set, const Evaluation& evaluation,
+void writePlots(const std::string& folder, const SceneClouds& clouds, const Evaluation& evaluation,
                 const nlohmann::json& json, const Progress& progress);
 
 }  // namespace sks::tools

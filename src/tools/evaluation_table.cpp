@@ -69,12 +69,15 @@ std::string timeTable(const Evaluation& evaluation) {
 
 }  // namespace
 
-std::string evaluationTable(const Evaluation& evaluation) {
+std::string recordedTable(const Evaluation& evaluation) {
   return evaluation.data_set + ", " + evaluation.method + ": " + std::to_string(evaluation.scenes.size()) +
          " scenes, threshold " + fixed(evaluation.threshold, 3) + ", within " +
          fixed(1000 * evaluation.max_distance, 0) + " mm; pose errors are medians\n\n" + objectTable(evaluation) +
-         "\n" + sweepTable(evaluation) + "\n" + timeTable(evaluation) + "peak memory " +
-         fixed(evaluation.peak_memory_mb, 0) + " MiB\n";
+         "\n" + sweepTable(evaluation) + "\n" + timeTable(evaluation);
+}
+
+std::string evaluationTable(const Evaluation& evaluation) {
+  return recordedTable(evaluation) + "peak memory " + fixed(evaluation.peak_memory_mb, 0) + " MiB\n";
 }
 
 }  // namespace sks::tools

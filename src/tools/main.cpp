@@ -5,6 +5,7 @@
 #include <sks_detector/error.hpp>
 
 #include "io/nearest_name.hpp"
+#include "tools/bag.hpp"
 #include "tools/command.hpp"
 #include "tools/progress_bar.hpp"
 #include "tools/simulation.hpp"
@@ -37,6 +38,7 @@ int main(int argc, char** argv) {
   tools::addDetect(app);
   tools::addEvaluate(app);
   tools::addSimulate(app);
+  tools::addBag(app);
   tools::addInfo(app);
   tools::addVerify(app);
   tools::addSettings(app);

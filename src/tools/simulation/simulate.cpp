@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
@@ -7,6 +8,7 @@
 #include <sks_detector/simulation/builtin_objects.hpp>
 #include <sks_detector/simulation/scene.hpp>
 
+#include "tools/bag.hpp"
 #include "tools/command.hpp"
 #include "tools/mesh_options.hpp"
 #include "tools/progress_bar.hpp"
@@ -22,7 +24,22 @@ struct Options {
   int scenes = 10;
   bool no_noise = false;
   SceneOptions scene;
+  CLI::Option* bag_option = nullptr;
+  std::string bag;  // empty: scenes.bag in the output folder
+  double rate = 1;
+  int repeat = 1;
+
+  std::unique_ptr<BagRecorder> bagRecorder() const;
 };
+
+std::unique_ptr<BagRecorder> Options::bagRecorder() const {
+  if (bag_option->count() == 0) return nullptr;
+  if (repeat < 1 || repeat > 100000) {
+    throw Error(ErrorCode::bad_usage, "--repeat " + std::to_string(repeat) + " must be in [1, 100000]");
+  }
+  const std::string path = bag.empty() ? (std::filesystem::path(output) / "scenes.bag").string() : bag;
+  return std::make_unique<BagRecorder>(path, scene.camera, rate);
+}
 
 std::vector<SceneModel> loadModels(const std::vector<TrainingEntry>& entries) {
   std::vector<SceneModel> models;
@@ -48,13 +65,19 @@ void run(const Options& options) {
   const std::vector<TrainingEntry> entries = options.meshes.entries();
   const std::vector<SceneModel> models = loadModels(entries);
   SimulatedSet set(options.output, entries, models);
+  const std::unique_ptr<BagRecorder> bag = options.bagRecorder();
   ProgressBar bar;
   const Progress progress = bar.callback();
   const auto total = std::size_t(options.scenes);
   for (std::size_t i = 0; i < total; ++i) {
     report(progress, {"simulating", "", i, total});
-    set.add(simulateScene(models, scene, i));
+    const SimulatedScene simulated = simulateScene(models, scene, i);
+    set.add(simulated);
+    if (!bag) continue;
+    for (int k = 0; k < options.repeat; ++k)
+      bag->add(simulated.view.cloud, simulated.T_table_camera, set.truth(simulated));
   }
+  if (bag) bag->finish();
   const std::string file = set.finish();
   bar.clear();
   print(std::to_string(total) + " scenes: " + file + "\n");
@@ -78,6 +101,15 @@ void addSimulate(CLI::App& app) {
   command->add_option("--region", options->scene.region, "radius in which things are dropped [m] (default: 0.2)");
   command->add_option("--seed", options->scene.seed, "same seed, same files (default: 1)")->type_name("S");
   command->add_flag("--no-noise", options->no_noise, "a camera without errors");
+  options->bag_option =
+      command->add_option("--bag", options->bag, "also as a bag for `rosbag play` (default: scenes.bag in DIR)")
+          ->type_name("[FILE]")
+          ->expected(0, 1);
+  command->add_option("--rate", options->rate, "frames of the bag in a second [Hz] (default: 1)")
+      ->needs(options->bag_option);
+  command->add_option("--repeat", options->repeat, "frames of the bag that show each scene (default: 1)")
+      ->type_name("N")
+      ->needs(options->bag_option);
   command->callback([options] { run(*options); });
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <set>
 
 #include <opencv2/imgcodecs.hpp>
 
@@ -14,31 +13,14 @@
 #include <sks_detector/file.hpp>
 #include <sks_detector/simulation/mesh_symmetry.hpp>
 
+#include "tools/data_set_yaml.hpp"
+
 namespace sks::tools {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double least_visibility = 0.05;  // objects of which less is seen are not asked for
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.9g", value);
-  return text;
-}
-
-template <typename Values>
-std::string list(const Values& values) {
-  std::string text;
-  for (const double v : values) text += (text.empty() ? "[" : ", ") + number(v);
-  return text + "]";
-}
-
-std::string yamlText(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
-  return result + "\"";
-}
+constexpr double hidden = 0.001;  // share of what cannot be seen at all: 0 would say that it is unknown
 
 /// A mesh's file as seen from the data set file.
 std::string relativeSource(const std::string& source, const std::string& folder) {
@@ -70,7 +52,7 @@ cv::Mat1w depthImage(const Rendering& view) {
 std::string symmetryText(const TrainingEntry& entry, const Mesh& mesh) {
   const std::optional<Symmetry> symmetry = entry.symmetry ? entry.symmetry : estimateSymmetry(mesh);
   if (!symmetry) return "";
-  return ", symmetry: {axis: " + list(std::vector<double>(symmetry->axis.data(), symmetry->axis.data() + 3)) +
+  return ", symmetry: {axis: " + yamlList({symmetry->axis.x(), symmetry->axis.y(), symmetry->axis.z()}) +
          ", order: " + (symmetry->order == 0 ? "inf" : std::to_string(symmetry->order)) + "}";
 }
 
@@ -85,10 +67,25 @@ SimulatedSet::SimulatedSet(const std::string& folder, const std::vector<Training
   for (std::size_t i = 0; i < models.size(); ++i) {
     sources_.push_back(relativeSource(models[i].source, folder));
     objects_.push_back(models[i].object);
-    centers_.push_back(models[i].mesh->box().center().cast<double>());
+    boxes_.push_back(models[i].mesh->box().cast<double>());
     training_ += "  - {object: " + yamlText(objects_[i]) + ", cloud: " + yamlText(sources_[i]) + ", kind: mesh" +
                  symmetryText(training[i], *models[i].mesh) + "}\n";
   }
+}
+
+std::vector<Detection> SimulatedSet::truth(const SimulatedScene& scene) const {
+  std::vector<Detection> truth;
+  for (const ScenePlacement& placed : scene.objects) {
+    Detection object;
+    object.object = objects_[placed.model];
+    object.score = std::max(hidden, placed.visibility);
+    object.view = sources_[placed.model];
+    object.T_scene_model = placed.T_camera_model;
+    object.T_scene_box = placed.T_camera_model * Eigen::Translation3d(boxes_[placed.model].center());
+    object.box_size = boxes_[placed.model].sizes();
+    truth.push_back(std::move(object));
+  }
+  return truth;
 }
 
 void SimulatedSet::add(const SimulatedScene& scene) {
@@ -98,28 +95,9 @@ void SimulatedSet::add(const SimulatedScene& scene) {
   writeCloud(base + ".pcd", scene.view.cloud);
   writePng(base + "_color.png", colorImage(scene.view.cloud));
   writePng(base + "_depth.png", depthImage(scene.view));
-
-  std::string objects;
-  std::set<std::string> hidden;
-  for (const ScenePlacement& placed : scene.objects) {
-    if (placed.visibility < least_visibility) {
-      hidden.insert(objects_[placed.model]);
-      continue;
-    }
-    const Eigen::Vector3d position = placed.T_camera_model * centers_[placed.model];
-    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> pose = placed.T_camera_model.matrix();
-    objects += "      - object: " + yamlText(objects_[placed.model]) +
-               "\n        position: " + list(std::vector<double>(position.data(), position.data() + 3)) +
-               "\n        reference: " + yamlText(sources_[placed.model]) +
-               "\n        pose: " + list(std::vector<double>(pose.data(), pose.data() + 16)) +
-               "\n        visibility: " + number(placed.visibility) + "\n";
-  }
-  scenes_ += std::string("  - name: ") + name + "\n    cloud: scenes/" + name + ".pcd\n";
-  if (!objects.empty()) scenes_ += "    objects:\n" + objects;
-  if (hidden.empty()) return;
-  scenes_ += "    ignore: [";
-  for (const std::string& object : hidden) scenes_ += (object == *hidden.begin() ? "" : ", ") + yamlText(object);
-  scenes_ += "]\n";
+  Scene entry = groundTruthScene(name, truth(scene));
+  entry.path = std::string("scenes/") + name + ".pcd";
+  scenes_ += sceneYaml(entry);
 }
 
 std::string SimulatedSet::finish() const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <sks_detector/dataset.hpp>
+#include <sks_detector/detection.hpp>
 #include <sks_detector/simulation/scene.hpp>
 
 namespace sks::tools {
@@ -19,15 +20,18 @@ public:
   /// Writes cloud, colour picture (PNG) and depth picture (16-bit PNG, mm). @throws Error(bad_file)
   void add(const SimulatedScene& scene);
 
+  /// What stands in a scene, in the camera's frame: model frames, boxes, and the share that is seen as the score.
+  std::vector<Detection> truth(const SimulatedScene& scene) const;
+
   /// Writes dataset.yaml. @return its path @throws Error(bad_file)
   std::string finish() const;
 
 private:
   std::string folder_;
-  std::vector<std::string> sources_;  // of the models, relative to the folder
-  std::vector<std::string> objects_;  // names of the models
-  std::vector<Eigen::Vector3d> centers_;
-  std::string training_, scenes_;  // parts of dataset.yaml
+  std::vector<std::string> sources_;        // of the models, relative to the folder
+  std::vector<std::string> objects_;        // names of the models
+  std::vector<Eigen::AlignedBox3d> boxes_;  // of the models, in their frames [m]
+  std::string training_, scenes_;           // parts of dataset.yaml
   int count_ = 0;
 };
 

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tools/data_set_yaml.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace sks::tools {
+namespace {
+
+constexpr double least_visibility = 0.05;  // objects of which less is seen are not asked for
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.9g", value);
+  return text;
+}
+
+std::string groundTruthYaml(const GroundTruth& truth) {
+  const Eigen::Vector3d& position = truth.position;
+  std::string text = "      - object: " + yamlText(truth.object) +
+                     "\n        position: " + yamlList({position.x(), position.y(), position.z()}) + "\n";
+  if (!truth.reference.empty()) text += "        reference: " + yamlText(truth.reference) + "\n";
+  if (truth.T_scene_reference) {
+    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> pose = truth.T_scene_reference->matrix();
+    text += "        pose: " + yamlList(std::vector<double>(pose.data(), pose.data() + 16)) + "\n";
+  }
+  if (truth.visibility) text += "        visibility: " + number(*truth.visibility) + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string yamlText(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  return result + "\"";
+}
+
+std::string yamlList(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "[" : ", ") + number(value);
+  return text + "]";
+}
+
+std::string sceneYaml(const Scene& scene) {
+  std::string text = "  - name: " + yamlText(scene.name) + "\n    cloud: " + yamlText(scene.path) + "\n";
+  if (!scene.objects.empty()) text += "    objects:\n";
+  for (const GroundTruth& truth : scene.objects) text += groundTruthYaml(truth);
+  if (scene.ignore.empty()) return text;
+  text += "    ignore: [";
+  for (const std::string& object : scene.ignore) text += (object == scene.ignore[0] ? "" : ", ") + yamlText(object);
+  return text + "]\n";
+}
+
+Scene groundTruthScene(const std::string& name, const std::vector<Detection>& truth) {
+  Scene scene;
+  scene.name = name;
+  for (const Detection& object : truth) {
+    if (object.score > 0 && object.score < least_visibility) {
+      scene.ignore.push_back(object.object);
+      continue;
+    }
+    GroundTruth entry;
+    entry.object = object.object;
+    entry.position = object.position();
+    entry.reference = object.view;
+    if (!object.view.empty()) entry.T_scene_reference = object.T_scene_model;
+    if (object.score > 0) entry.visibility = std::min(1.0, object.score);
+    scene.objects.push_back(std::move(entry));
+  }
+  std::sort(scene.ignore.begin(), scene.ignore.end());
+  scene.ignore.erase(std::unique(scene.ignore.begin(), scene.ignore.end()), scene.ignore.end());
+  return scene;
+}
+
+}  // namespace sks::tools
