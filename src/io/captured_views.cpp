@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/captured_views.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+
+#include <yaml-cpp/yaml.h>
+
+#include <sks_detector/cloud_io.hpp>
+#include <sks_detector/confined_path.hpp>
+#include <sks_detector/error.hpp>
+#include <sks_detector/file.hpp>
+
+namespace sks {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* heading =
+    "# Captured training views. Entries may be deleted while no detector runs; the clouds they name may be, too.\n";
+
+void makeFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw Error(ErrorCode::bad_file, "cannot make the folder '" + folder.string() + "': " + error.message());
+  }
+}
+
+/// `000.pcd`, or the name after the last one: a number is not used again while a later file stands there.
+std::string nextName(const fs::path& folder) {
+  long next = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() != ".pcd") continue;
+    next = std::max(next, std::strtol(entry.path().stem().c_str(), nullptr, 10) + 1);
+  }
+  char name[32];
+  std::snprintf(name, sizeof(name), "%03ld.pcd", next);
+  return name;
+}
+
+/// The data set file as it stands, so that what is not ours to know stays as it is.
+YAML::Node loadFile(const std::string& file) {
+  if (!fs::exists(file)) return YAML::Load("{name: captured, units: m}");
+  try {
+    return YAML::Load(readTextFile(file));
+  } catch (const YAML::Exception& error) {
+    throw Error(ErrorCode::bad_file, file + ": not a YAML file: " + error.what());
+  }
+}
+
+void storeFile(const std::string& file, const YAML::Node& root) {
+  YAML::Emitter emitter;
+  emitter << root;
+  writeFileAtomically(file, std::string(heading) + emitter.c_str() + "\n");
+}
+
+}  // namespace
+
+CapturedViews::CapturedViews(std::string folder)
+    : folder_(std::move(folder)), file_((fs::path(folder_) / "dataset.yaml").string()) {}
+
+CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& view) {
+  checkFileName(object, "the object's name");
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const DataSet before = readUnlocked();
+  if (before.scale != 1) {
+    throw Error(ErrorCode::bad_usage, file_ +
+                                          " is in millimetres, but captured views are in metres: move it and its "
+                                          "clouds to a folder of their own");
+  }
+  const std::string folder = objectFolder(object);
+  makeFolder(folder);
+  const std::string name = nextName(folder);
+  const Added added{(fs::path(folder) / name).string(),
+                    1 + std::size_t(std::count_if(before.training.begin(), before.training.end(),
+                                                  [&](const TrainingEntry& entry) { return entry.object == object; }))};
+  writeCloud(added.file, view);
+
+  YAML::Node root = loadFile(file_), entry;
+  entry.SetStyle(YAML::EmitterStyle::Flow);
+  entry["object"] = object;
+  entry["cloud"] = object + "/" + name;
+  entry["kind"] = "view";
+  root["training"].push_back(entry);
+  storeFile(file_, root);
+  return added;
+}
+
+std::size_t CapturedViews::remove(const std::string& object) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const DataSet before = readUnlocked();
+  std::vector<std::string> removed;
+  for (const TrainingEntry& entry : before.training) {
+    if (entry.object == object) removed.push_back(entry.path);
+  }
+  if (removed.empty()) return 0;
+  checkFileName(object, "the object's name");
+
+  YAML::Node root = loadFile(file_), rest(YAML::NodeType::Sequence);
+  for (const YAML::Node& entry : root["training"]) {
+    if (entry["object"].Scalar() != object) rest.push_back(entry);
+  }
+  root["training"] = rest;
+  std::error_code ignored;
+  if (rest.size() == 0 && !root["scenes"] && !root["tests"]) {
+    fs::remove(file_, ignored);  // a data set must not be empty
+  } else {
+    storeFile(file_, root);
+  }
+  const fs::path folder = objectFolder(object);
+  for (const std::string& cloud : removed) {
+    if (fs::path(cloud).parent_path() == folder) fs::remove(cloud, ignored);
+  }
+  fs::remove(folder, ignored);  // fails, as it should, if something is left in it
+  return removed.size();
+}
+
+DataSet CapturedViews::read() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return readUnlocked();
+}
+
+DataSet CapturedViews::readUnlocked() const {
+  if (std::error_code ignored; fs::exists(file_, ignored)) return loadDataSet(file_);
+  DataSet empty;
+  empty.file = file_;
+  empty.name = "captured";
+  return empty;
+}
+
+std::vector<std::string> CapturedViews::objects() const {
+  std::vector<std::string> names;
+  for (const TrainingEntry& entry : read().training) {
+    if (std::find(names.begin(), names.end(), entry.object) == names.end()) names.push_back(entry.object);
+  }
+  return names;
+}
+
+/// A link that someone put there must not lead out of the folder.
+std::string CapturedViews::objectFolder(const std::string& object) const {
+  return fs::path(confinedPath(object + "/000.pcd", folder_)).parent_path().string();
+}
+
+}  // namespace sks

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/captured_views.hpp>
+
+#include <filesystem>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sks_detector/cloud_io.hpp>
+#include <sks_detector/file.hpp>
+
+#include "error_of.hpp"
+#include "synthetic.hpp"
+#include "temporary_folder.hpp"
+
+namespace sks {
+namespace {
+
+using test::errorOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+namespace fs = std::filesystem;
+
+class CapturedViewsTest : public ::testing::Test {
+protected:
+  CapturedViewsTest() : root_(fs::canonical(temporary_.path()).string()), views_(root_ + "/a/captured") {}
+
+  std::string path(const std::string& name) const { return root_ + "/a/captured/" + name; }
+  static Cloud view(float x) { return test::makeCloud({{x, 0, 1}, {0, 1, 1}}); }
+
+  test::TemporaryFolder temporary_;
+  std::string root_;
+  CapturedViews views_;
+};
+
+TEST_F(CapturedViewsTest, AreEmptyAtFirstAndTouchNothing) {
+  EXPECT_THAT(views_.objects(), IsEmpty());
+  EXPECT_THAT(views_.read().training, IsEmpty());
+  EXPECT_EQ(views_.remove("mug"), 0u);
+  EXPECT_FALSE(fs::exists(root_ + "/a"));
+}
+
+TEST_F(CapturedViewsTest, OutliveARestart) {
+  EXPECT_EQ(views_.add("tea pot", view(1)).file, path("tea pot/000.pcd"));
+  EXPECT_EQ(views_.add("yes", view(2)).views, 1u);
+  const auto added = views_.add("tea pot", view(3));
+  EXPECT_EQ(added.file, path("tea pot/001.pcd"));
+  EXPECT_EQ(added.views, 2u);
+
+  const DataSet after = CapturedViews(path("")).read();
+  EXPECT_EQ(after.name, "captured");
+  ASSERT_THAT(after.training, SizeIs(3));
+  EXPECT_EQ(after.training[1].object, "yes");
+  EXPECT_EQ(after.training[2].source, "tea pot/001.pcd");
+  EXPECT_EQ(after.training[2].kind, ViewKind::view);
+  EXPECT_EQ(readCloud(after.training[2].path).points[0].x(), 3);
+  EXPECT_THAT(CapturedViews(path("")).objects(), ElementsAre("tea pot", "yes"));
+}
+
+TEST_F(CapturedViewsTest, RemovesOneObject) {
+  views_.add("mug", view(1));
+  views_.add("box", view(2));
+  views_.add("mug", view(3));
+  EXPECT_EQ(views_.remove("mug"), 2u);
+  EXPECT_THAT(views_.objects(), ElementsAre("box"));
+  EXPECT_FALSE(fs::exists(path("mug")));
+  EXPECT_EQ(views_.remove("mug"), 0u);
+  EXPECT_EQ(views_.remove("box"), 1u);
+  EXPECT_FALSE(fs::exists(path("dataset.yaml")));
+  EXPECT_EQ(views_.add("box", view(4)).views, 1u);
+}
+
+TEST_F(CapturedViewsTest, LeavesAloneWhatItDidNotStore) {
+  views_.add("mug", view(1));
+  writeCloud(root_ + "/own.pcd", view(2));
+  test::writeFile(path("mug/notes.txt"), "");
+  test::writeFile(path("dataset.yaml"),
+                  "name: mine\nunits: m\ntraining:\n"
+                  "  - {object: mug, cloud: mug/000.pcd, kind: view}\n"
+                  "  - {object: mug, cloud: ../../own.pcd, kind: model}\n"
+                  "  - {object: box, cloud: ../../own.pcd, kind: model,"
+                  " symmetry: {axis: [0, 0, 1], order: inf}}\n");
+  views_.add("cup", view(3));
+  EXPECT_EQ(views_.remove("mug"), 2u);
+  EXPECT_TRUE(fs::exists(root_ + "/own.pcd"));
+  EXPECT_TRUE(fs::exists(path("mug/notes.txt")));
+  const DataSet after = views_.read();
+  EXPECT_EQ(after.name, "mine");
+  ASSERT_THAT(after.training, SizeIs(2));
+  EXPECT_EQ(after.training[0].kind, ViewKind::model);
+  EXPECT_TRUE(after.training[0].symmetry);
+}
+
+TEST_F(CapturedViewsTest, NeverReusesAName) {
+  views_.add("mug", view(1));
+  views_.add("mug", view(2));
+  fs::remove(path("mug/000.pcd"));
+  test::writeFile(path("dataset.yaml"), "name: c\nunits: m\ntraining: [{object: mug, cloud: mug/001.pcd, kind: view}]");
+  EXPECT_EQ(views_.add("mug", view(3)).file, path("mug/002.pcd"));
+}
+
+TEST_F(CapturedViewsTest, RefusesNamesThatAreNone) {
+  for (const char* name : {"", "..", "a/b", ".mug", "/etc"}) {
+    EXPECT_THAT(errorOf(ErrorCode::bad_usage, [&] { views_.add(name, view(1)); }), HasSubstr("the object's name"));
+  }
+  EXPECT_FALSE(fs::exists(root_ + "/a"));
+}
+
+TEST_F(CapturedViewsTest, RefusesAFolderThatLeadsOut) {
+  fs::create_directories(path(""));
+  fs::create_directory_symlink(root_, path("mug"));
+  EXPECT_THAT(errorOf(ErrorCode::bad_usage, [&] { views_.add("mug", view(1)); }), HasSubstr("outside"));
+  EXPECT_FALSE(fs::exists(root_ + "/000.pcd"));
+}
+
+TEST_F(CapturedViewsTest, KeepsADamagedFileAsItIs) {
+  views_.add("mug", view(1));
+  for (const char* damaged : {"name: [", "name: c\nunits: m\ntraining: [{object: mug, cloud: gone.pcd, kind: view}]"}) {
+    test::writeFile(path("dataset.yaml"), damaged);
+    EXPECT_THAT(errorOf(ErrorCode::bad_file, [&] { views_.add("mug", view(2)); }), HasSubstr("dataset.yaml:"));
+    EXPECT_THAT(errorOf(ErrorCode::bad_file, [&] { views_.remove("mug"); }), HasSubstr("dataset.yaml:"));
+    EXPECT_EQ(readTextFile(path("dataset.yaml")), damaged);
+  }
+  test::writeFile(path("dataset.yaml"),
+                  "name: c\nunits: mm\ntraining: [{object: mug, cloud: mug/000.pcd, kind: view}]");
+  EXPECT_THAT(errorOf(ErrorCode::bad_usage, [&] { views_.add("mug", view(2)); }), HasSubstr("millimetres"));
+}
+
+}  // namespace
+}  // namespace sks
