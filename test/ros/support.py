@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the tests of the node have in common."""
+import os
+import threading
+import time
+
+import numpy as np
+import rospy
+from sensor_msgs.msg import PointCloud2, PointField
+
+# Where make_data.py has put its files.
+DATA = os.environ["SKS_TEST_DATA"]
+CODEBOOK = os.path.join(DATA, "synthetic.sks")
+
+# Far longer than anything takes on an idle machine: tests wait for conditions, not for times.
+PATIENCE = 60.0
+
+
+def wait_for(condition, what, timeout=PATIENCE):
+    """The first true value of `condition()`; fails naming `what` was waited for."""
+    end = time.monotonic() + timeout
+    while time.monotonic() < end:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.02)
+    raise AssertionError("waited %.0f s for %s" % (timeout, what))
+
+
+class Recorder:
+    """Keeps all messages of a topic."""
+
+    def __init__(self, topic, message_type):
+        self.topic = topic
+        self._messages = []
+        self._lock = threading.Lock()
+        self._subscriber = rospy.Subscriber(topic, message_type, self._receive)
+
+    def _receive(self, message):
+        with self._lock:
+            self._messages.append(message)
+
+    @property
+    def messages(self):
+        with self._lock:
+            return list(self._messages)
+
+    def clear(self):
+        with self._lock:
+            self._messages = []
+
+    def wait_for(self, condition=lambda message: True, what="a message", timeout=PATIENCE):
+        """The first message that fulfils the condition."""
+        return wait_for(lambda: next((m for m in self.messages if condition(m)), None),
+                        "%s on %s" % (what, self.topic), timeout)
+
+    def wait_for_stamp(self, stamp, timeout=PATIENCE):
+        return self.wait_for(lambda m: m.header.stamp == stamp, "an answer to the cloud of %s" % stamp, timeout)
+
+    def close(self):
+        self._subscriber.unregister()
+
+
+def cloud_message(points, frame="camera", stamp=None, colors=None, color_field="rgb"):
+    """A PointCloud2 of N x 3 or, organised, height x width x 3 points [m]; `colors` of the same shape, 0 to 255."""
+    points = np.asarray(points, np.float32)
+    if points.ndim == 2:
+        points = points[None]
+    message = PointCloud2()
+    message.header.frame_id = frame
+    message.header.stamp = stamp if stamp is not None else rospy.Time.now()
+    message.height, message.width = points.shape[:2]
+    names = ["x", "y", "z"]
+    columns = points.reshape(-1, 3)
+    if colors is not None:
+        r, g, b = np.asarray(colors, np.uint32).reshape(-1, 3).T
+        packed = ((r << 16) | (g << 8) | b).astype(np.uint32)
+        columns = np.column_stack([columns, packed.view(np.float32)])
+        names.append(color_field)
+    message.fields = [PointField(name, 4 * i, PointField.FLOAT32, 1) for i, name in enumerate(names)]
+    if color_field == "rgba" and colors is not None:
+        message.fields[-1].datatype = PointField.UINT32
+    message.point_step = 4 * len(names)
+    message.row_step = message.point_step * message.width
+    message.is_dense = bool(np.isfinite(points).all())
+    message.data = np.ascontiguousarray(columns, np.float32).tobytes()
+    return message
+
+
+class CloudSource:
+    """Publishes clouds, once the node has subscribed."""
+
+    def __init__(self, topic):
+        self.topic = topic
+        self.publisher = rospy.Publisher(topic, PointCloud2, queue_size=10)
+
+    def wait_for_subscriber(self):
+        wait_for(lambda: self.publisher.get_num_connections() > 0, "a subscriber of " + self.topic)
+
+    def send(self, message):
+        """Its stamp."""
+        self.wait_for_subscriber()
+        self.publisher.publish(message)
+        return message.header.stamp
+
+
+def position_of(pose):
+    return np.array([pose.position.x, pose.position.y, pose.position.z])
+
+
+def matrix_of(pose):
+    q = pose.orientation
+    x, y, z, w = q.x, q.y, q.z, q.w
+    T = np.eye(4)
+    T[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                 [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                 [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+    T[:3, 3] = position_of(pose)
+    return T
+
+
+def log_messages(recorder, text):
+    """Messages of /rosout_agg that contain a text."""
+    return [m.msg for m in recorder.messages if text in m.msg]
