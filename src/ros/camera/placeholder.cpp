@@ -1,1 +1,0 @@
-#include <sks_detector/DetectionArray.h>
