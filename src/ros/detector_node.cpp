@@ -53,6 +53,7 @@ DetectorNode::DetectorNode(const ros::NodeHandle& private_handle, const Paramete
       control_handle_, configuration(), [this](const Configuration& wanted) { return apply(wanted); },
       [this](const std::string& reason) { refuse(reason); });
   board_.setCodebookListener([this] { reconfigure_->update(configuration()); });
+  services_ = std::make_unique<Services>(control_handle_, slot_, board_, nodeSettings(), nodeAccess());
   listenToTransforms();
   timer_ = control_handle_.createSteadyTimer(ros::WallDuration(watch_period),
                                              [this](const ros::SteadyTimerEvent&) { watch(); });
@@ -64,6 +65,7 @@ DetectorNode::DetectorNode(const ros::NodeHandle& private_handle, const Paramete
 DetectorNode::~DetectorNode() {
   input_.stop();
   transforms_.stop();
+  services_.reset();
   timer_.stop();
   control_spinner_.stop();
   worker_.join();
@@ -146,6 +148,13 @@ DetectionArray DetectorNode::detect(const sensor_msgs::PointCloud2& cloud) {
   DetectionArray detections = frame_detector_.detect(cloud, nodeSettings(), false).detections;
   detections.processing_time = secondsSince(start);
   return detections;
+}
+
+NodeAccess DetectorNode::nodeAccess() {
+  return {[this](double timeout) { return input_.next(timeout); },
+          [this](const sensor_msgs::PointCloud2ConstPtr& cloud) { return detect(*cloud); },
+          [this](bool enabled) { setEnabled(enabled); },
+          [this](const sensor_msgs::PointCloud2& cloud) { return frame_detector_.read(cloud, nodeSettings()); }};
 }
 
 void DetectorNode::setEnabled(bool enabled) {

@@ -21,6 +21,7 @@
 #include "ros/frame_statistics.hpp"
 #include "ros/parameters.hpp"
 #include "ros/reconfigure.hpp"
+#include "ros/services.hpp"
 #include "ros/status_board.hpp"
 #include "ros/time_watch.hpp"
 #include "ros/transforms.hpp"
@@ -45,7 +46,7 @@ private:
   void process(const CloudInput::Frame& frame);
   /// False, and an empty array, where the cloud cannot be used; says why.
   bool detect(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings, FrameResult& result);
-  /// NodeAccess::detect.
+  NodeAccess nodeAccess();
   DetectionArray detect(const sensor_msgs::PointCloud2& cloud);
 
   void setEnabled(bool enabled);
@@ -81,6 +82,7 @@ private:
   DetectionOutput output_;
   Diagnostics diagnostics_;
   std::unique_ptr<Reconfigure> reconfigure_;
+  std::unique_ptr<Services> services_;
   ros::SteadyTimer timer_;
   ros::AsyncSpinner control_spinner_;
   std::thread worker_;

@@ -4,17 +4,13 @@
 #include <cstdio>
 
 namespace sks_detector {
-namespace {
 
-/// `settings`, but those that are bound to a codebook from `bound`.
 sks::Settings withBound(sks::Settings settings, const sks::Settings& bound) {
   for (const sks::SettingInfo& info : sks::settingInfos()) {
     if (info.binding == sks::Binding::codebook) sks::setSetting(settings, info.key, sks::getSetting(bound, info.key));
   }
   return settings;
 }
-
-}  // namespace
 
 std::string nameWithChecksum(const sks::Codebook& codebook) {
   char checksum[16];

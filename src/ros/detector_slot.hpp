@@ -14,6 +14,9 @@ namespace sks_detector {
 /// Name and checksum of a codebook, e.g. "toys (3f2a90c1)".
 std::string nameWithChecksum(const sks::Codebook& codebook);
 
+/// `settings`, but those that are bound to a codebook as in `bound`.
+sks::Settings withBound(sks::Settings settings, const sks::Settings& bound);
+
 /// The detector in use: codebook and settings, swapped as a whole. A frame takes the pointer once and so sees one
 /// consistent set; what is expensive is built aside, before the swap. Safe to use from several threads.
 class DetectorSlot {

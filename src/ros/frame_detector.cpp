@@ -35,22 +35,24 @@ std::vector<sks::Rgb> voteColors(const sks::Inspection& inspection, const std::v
 
 }  // namespace
 
+sks::Cloud FrameDetector::read(const sensor_msgs::PointCloud2& message, const NodeSettings& settings) const {
+  sks::Cloud cloud = toCloud(message);
+  if (settings.sensor_frame.empty()) return cloud;
+  const Eigen::Isometry3d T_cloud_sensor =
+      transforms_.lookup(withoutSlash(message.header.frame_id), withoutSlash(settings.sensor_frame),
+                         message.header.stamp, settings.tf_timeout);
+  cloud.sensor_origin = T_cloud_sensor.translation().cast<float>();
+  return cloud;
+}
+
 FrameResult FrameDetector::detect(const sensor_msgs::PointCloud2& message, const NodeSettings& settings,
                                   bool inspect) const {
-  const std::string cloud_frame = withoutSlash(message.header.frame_id);
-  const ros::Time& stamp = message.header.stamp;
   const auto detector = slot_.detector();
   if (!detector) {
     throw sks::Error(sks::ErrorCode::bad_usage,
                      "there is no codebook: set ~codebook, call ~load_codebook, or train one by ~train");
   }
-  sks::Cloud cloud = toCloud(message);
-  if (!settings.sensor_frame.empty()) {
-    const std::string sensor_frame = withoutSlash(settings.sensor_frame);
-    cloud.sensor_origin =
-        transforms_.lookup(cloud_frame, sensor_frame, stamp, settings.tf_timeout).translation().cast<float>();
-  }
-
+  const sks::Cloud cloud = read(message, settings);
   sks::Inspection inspection;
   const double threshold = detector->settings().detection.threshold;
   std::vector<sks::Detection> found = detector->detect(cloud, inspect ? &inspection : nullptr).above(threshold);
@@ -60,8 +62,8 @@ FrameResult FrameDetector::detect(const sensor_msgs::PointCloud2& message, const
   answer.header = answerHeader(message.header, settings);
   answer.codebook = nameWithChecksum(detector->codebook());
   // looked up last: while detecting the transform had time to arrive
-  const Eigen::Isometry3d T_target_cloud =
-      transforms_.lookup(answer.header.frame_id, cloud_frame, stamp, settings.tf_timeout);
+  const Eigen::Isometry3d T_target_cloud = transforms_.lookup(
+      answer.header.frame_id, withoutSlash(message.header.frame_id), message.header.stamp, settings.tf_timeout);
   result.keypoints = pointsCloud(T_target_cloud, std::move(inspection.keypoints));
   result.votes = pointsCloud(T_target_cloud, std::move(inspection.votes));
   result.votes.colors = voteColors(inspection, detector->codebook().objects);

@@ -27,6 +27,10 @@ public:
   /// @param slot, transforms must outlive it
   FrameDetector(const DetectorSlot& slot, Transforms& transforms) : slot_(slot), transforms_(transforms) {}
 
+  /// The cloud in its own frame, with the place of the camera.
+  /// @throws sks::Error for an unusable cloud, or where a transform is missing
+  sks::Cloud read(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings) const;
+
   /// @throws sks::Error without a codebook, for an unusable cloud, or where a transform is missing
   FrameResult detect(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings, bool inspect) const;
 

@@ -8,6 +8,8 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <sks_detector/DetectionArray.h>
 
+#include <sks_detector/cloud.hpp>
+
 #include "ros/detector_slot.hpp"
 #include "ros/next_cloud.hpp"
 #include "ros/node_settings.hpp"
@@ -23,6 +25,9 @@ struct NodeAccess {
   std::function<DetectionArray(const sensor_msgs::PointCloud2ConstPtr& cloud)> detect;
   /// Starts or stops the processing of `~points`.
   std::function<void(bool enabled)> enable;
+  /// The cloud as the detector takes it: in its own frame, with the place of the camera (~sensor_frame).
+  /// @throws sks::Error for an unusable cloud, or where a transform is missing
+  std::function<sks::Cloud(const sensor_msgs::PointCloud2& cloud)> read;
 };
 
 /// All services of the node (docs/services.md), on a callback queue and threads of their own: a long training blocks no

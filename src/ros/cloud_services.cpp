@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/cloud_services.hpp"
+
+#include <cstdio>
+#include <filesystem>
+
+#include <boost/make_shared.hpp>
+
+#include <sks_detector/confined_path.hpp>
+#include <sks_detector/error.hpp>
+#include <sks_detector/tabletop.hpp>
+#include <sks_detector/view_quality.hpp>
+
+#include "core/value_text.hpp"
+
+namespace sks_detector {
+namespace {
+
+using sks::Error;
+using sks::ErrorCode;
+
+constexpr double longest_timeout = 3600;  // [s]
+
+/// The points of the one object on the dominant plane.
+std::vector<std::uint32_t> findObject(const sks::Cloud& cloud) {
+  const sks::Tabletop tabletop = sks::findTabletop(cloud);
+  const std::size_t count = tabletop.objects.size();
+  if (count == 1) return tabletop.objects[0];
+  char plane[100];
+  std::snprintf(plane, sizeof(plane), "the dominant plane (%.2f m^2, %.2f m from the camera)", tabletop.area,
+                double(tabletop.plane.absDistance(cloud.sensor_origin)));
+  if (count == 0) {
+    throw Error(ErrorCode::bad_data, std::string("no object stands on ") + plane +
+                                         ": put the object on a free table, in view of the camera");
+  }
+  throw Error(ErrorCode::bad_data,
+              std::to_string(count) + " objects stand on " + plane + ": leave only the one that is to be captured");
+}
+
+std::string describe(const sks::ViewQuality& quality) {
+  char text[200];
+  std::snprintf(text, sizeof(text), "%zu points, %.0f x %.0f x %.0f mm, %.1f mm apart", quality.points,
+                1000.0 * quality.extent.x(), 1000.0 * quality.extent.y(), 1000.0 * quality.extent.z(),
+                1000.0 * quality.spacing);
+  std::string description = text;
+  if (quality.remarks.empty()) return description + "; a good view";
+  for (const std::string& remark : quality.remarks) description += "; " + remark;
+  return description;
+}
+
+}  // namespace
+
+void CloudServices::detect(const Detect::Request& request, Detect::Response& response) {
+  const bool given = !request.cloud.data.empty() || request.cloud.width != 0;
+  const auto cloud =
+      given ? boost::make_shared<const sensor_msgs::PointCloud2>(request.cloud) : nextCloud(request.timeout);
+  response.detections = context_.node.detect(cloud);
+  response.message = counted(response.detections.detections.size(), "detection") + " with " +
+                     response.detections.codebook + " in " +
+                     sks::toText(int(1000 * response.detections.processing_time)) + " ms";
+}
+
+void CloudServices::captureView(const CaptureView::Request& request, CaptureView::Response& response) {
+  sks::checkFileName(request.object, "the object's name");  // before the camera is waited for
+  sks::confinedPath(context_.captured.file(), context_.dataset_directory);
+  context_.captured.read();
+  const sks::Cloud cloud = context_.node.read(*nextCloud(request.timeout));
+  const std::vector<std::uint32_t> object = findObject(cloud);
+  const sks::ViewQuality quality = sks::assessView(cloud, object, context_.slot.trainingSettings());
+  const auto added = context_.captured.add(request.object, sks::cutOut(cloud, object));
+  context_.updateStatus();
+  response.view = added.file;
+  response.views = std::uint32_t(added.views);
+  response.points = std::uint32_t(quality.points);
+  response.extent.x = quality.extent.x();
+  response.extent.y = quality.extent.y();
+  response.extent.z = quality.extent.z();
+  response.resolution = quality.spacing;
+  response.message = "view " + std::to_string(added.views) + " of '" + request.object + "': " + describe(quality);
+}
+
+sensor_msgs::PointCloud2ConstPtr CloudServices::nextCloud(double timeout) const {
+  if (!(timeout >= 0 && timeout <= longest_timeout)) {
+    throw Error(ErrorCode::bad_usage, "timeout = " + sks::toText(timeout) + " s must lie in 0 to " +
+                                          sks::toText(longest_timeout) + " s; 0: ~service_timeout (" +
+                                          sks::toText(context_.service_timeout) + " s)");
+  }
+  return context_.node.next_cloud(timeout > 0 ? timeout : context_.service_timeout);
+}
+
+}  // namespace sks_detector

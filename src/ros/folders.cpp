@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/folders.hpp"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include <sks_detector/error.hpp>
+
+namespace sks_detector {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+/// Where nodes of ROS keep their files.
+fs::path rosHome() {
+  const std::string home = environment("ROS_HOME");
+  return home.empty() ? fs::path(environment("HOME")) / ".ros" : fs::path(home);
+}
+
+/// `~/` is taken to be the home folder: launch files have no shell.
+std::string absolute(const std::string& directory) {
+  const bool home = directory == "~" || directory.rfind("~/", 0) == 0;
+  return fs::absolute(home ? environment("HOME") + directory.substr(1) : directory).string();
+}
+
+}  // namespace
+
+std::string codebookDirectory(const NodeSettings& settings) {
+  if (!settings.codebook_directory.empty()) return absolute(settings.codebook_directory);
+  const fs::path of_codebook = fs::absolute(settings.codebook).parent_path();
+  return settings.codebook.empty() ? (rosHome() / "sks_detector").string() : of_codebook.string();
+}
+
+std::string datasetDirectory(const NodeSettings& settings) {
+  if (!settings.dataset_directory.empty()) return absolute(settings.dataset_directory);
+  return (rosHome() / "sks_detector" / "datasets").string();
+}
+
+void makeFolderOf(const std::string& file) {
+  const fs::path folder = fs::path(file).parent_path();
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw sks::Error(sks::ErrorCode::bad_file, "cannot make the folder '" + folder.string() + "': " + error.message());
+  }
+}
+
+}  // namespace sks_detector

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/service_context.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <ros/console.h>
+
+#include <sks_detector/codebook_file.hpp>
+#include <sks_detector/confined_path.hpp>
+#include <sks_detector/error.hpp>
+
+#include "ros/folders.hpp"
+
+namespace sks_detector {
+
+namespace fs = std::filesystem;
+
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+ServiceContext::ServiceContext(DetectorSlot& detector_slot, StatusBoard& status_board, const NodeSettings& settings,
+                               NodeAccess node_access)
+    : slot(detector_slot),
+      board(status_board),
+      node(std::move(node_access)),
+      codebook_directory(codebookDirectory(settings)),
+      dataset_directory(datasetDirectory(settings)),
+      service_timeout(settings.service_timeout),
+      captured((fs::path(dataset_directory) / "captured").string()) {}
+
+std::string ServiceContext::codebookPath(const std::string& path) const {
+  const std::string file = sks::confinedPath(path, codebook_directory);
+  if (fs::path(file).extension() == ".sks") return file;
+  throw sks::Error(sks::ErrorCode::bad_usage,
+                   "'" + file + "' is not called like a codebook; let its name end with .sks");
+}
+
+void ServiceContext::checkOverwriting(const std::string& path, bool overwrite, const sks::Codebook* same) const {
+  if (overwrite || !fs::exists(path)) return;
+  const auto refuse = [&](const std::string& what) {
+    throw sks::Error(sks::ErrorCode::bad_usage,
+                     "'" + path + "' exists already and " + what + "; choose another name, or set overwrite to true");
+  };
+  std::shared_ptr<const sks::Codebook> old;
+  try {
+    old = sks::readCodebook(path);
+  } catch (const sks::Error&) {
+    refuse("is not a codebook that this program can read");
+  }
+  if (!same || old->checksum != same->checksum) refuse("holds the codebook " + nameWithChecksum(*old));
+}
+
+void ServiceContext::updateStatus() {
+  board.codebookChanged();
+  try {
+    std::vector<std::string> objects = captured.objects();
+    if (const auto detector = slot.detector()) {
+      const std::vector<std::string>& trained = detector->codebook().objects;
+      const auto is_trained = [&](const std::string& object) {
+        return std::find(trained.begin(), trained.end(), object) != trained.end();
+      };
+      objects.erase(std::remove_if(objects.begin(), objects.end(), is_trained), objects.end());
+    }
+    board.setCaptured(objects);
+  } catch (const std::exception& error) {
+    const std::string message = std::string("the captured views cannot be used: ") + error.what();
+    ROS_ERROR_STREAM(message);
+    board.setError(message);
+  }
+}
+
+}  // namespace sks_detector

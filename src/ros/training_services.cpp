@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/training_services.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <ros/console.h>
+
+#include <sks_detector/codebook_file.hpp>
+#include <sks_detector/error.hpp>
+#include <sks_detector/file.hpp>
+#include <sks_detector/trainer.hpp>
+
+#include "core/stopwatch.hpp"
+#include "core/value_text.hpp"
+#include "ros/folders.hpp"
+#include "ros/mesh_sampler.hpp"
+#include "ros/training_set.hpp"
+
+namespace sks_detector {
+
+void TrainingServices::train(const Train::Request& request, Train::Response& response) {
+  const auto listener = [this](const sks::ProgressState& state) { context_.board.trainingProgress(state); };
+  context_.training.run([&](const sks::Progress& progress) { work(request, progress, response); }, listener);
+  response.message = "detecting with " + response.codebook + ": " + counted(response.objects, "object") + ", " +
+                     counted(response.views, "view") + ", " + counted(response.words, "codeword") + ", trained in " +
+                     sks::toText(std::round(10 * response.seconds) / 10) + " s";
+}
+
+void TrainingServices::work(const Train::Request& request, const sks::Progress& progress, Train::Response& response) {
+  sks::Stopwatch stopwatch;
+  context_.board.trainingStarted();
+  const std::shared_ptr<void> at_end(nullptr, [this](void*) { context_.board.trainingEnded(); });
+
+  const sks::Settings settings = settingsOf(request);
+  std::string output;
+  if (!request.output.empty()) {  // before training takes its time
+    output = context_.codebookPath(request.output);
+    context_.checkOverwriting(output, request.overwrite, nullptr);
+    makeFolderOf(output);
+    sks::checkWritable(output);
+  }
+  const TrainingSet set = gatherTrainingSet(request.dataset, request.captured, context_.captured,
+                                            context_.dataset_directory, meshSampler(settings.threads));
+  for (const std::string& warning : set.warnings) ROS_WARN_STREAM(warning);
+
+  const std::string name = request.name.empty() ? set.name : request.name;
+  const auto codebook = std::make_shared<sks::Codebook>(sks::train(set.samples, settings, name, progress));
+  const std::size_t views = codebook->views.size();
+  codebook->checksum = output.empty() ? sks::codebookChecksum(*codebook) : sks::writeCodebook(output, *codebook);
+  sks::report(progress, {"sorting the codewords", "", views, views});
+  {
+    const std::lock_guard<std::mutex> lock(context_.codebook_change);
+    context_.slot.setCodebook(codebook, output);
+  }
+  context_.updateStatus();
+  response.codebook = nameWithChecksum(*codebook);
+  response.objects = std::uint32_t(codebook->objects.size());
+  response.views = std::uint32_t(views);
+  response.words = std::uint32_t(codebook->words.size());
+  response.seconds = stopwatch.lap();
+}
+
+sks::Settings TrainingServices::settingsOf(const Train::Request& request) const {
+  sks::Settings settings = context_.slot.trainingSettings();
+  for (const std::string& text : request.settings) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+      throw sks::Error(sks::ErrorCode::bad_usage, "settings: '" + text + "' is not of the form key=value");
+    }
+    sks::setSetting(settings, text.substr(0, equals), text.substr(equals + 1));
+  }
+  const int wanted = sks::threadCount(settings), most = BackgroundJob::threads();
+  settings.threads = std::min(wanted, most);
+  sks::validate(settings);
+  sks::validate(withBound(context_.slot.trainingSettings(), settings));  // with which the codebook will be used
+  return settings;
+}
+
+void TrainingServices::cancel(const std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  if (!context_.training.cancel()) {
+    throw sks::Error(sks::ErrorCode::bad_usage, "no training runs");
+  }
+  response.message = "the training ends after the cloud that it is at; the old codebook stays in use";
+}
+
+}  // namespace sks_detector

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/training_set.hpp"
+
+#include <sks_detector/confined_path.hpp>
+#include <sks_detector/error.hpp>
+
+namespace sks_detector {
+namespace {
+
+using sks::Error;
+using sks::ErrorCode;
+
+/// A file that lies inside must not reach out by what it names.
+void checkConfined(const sks::DataSet& data_set, const std::string& directory) {
+  for (const sks::TrainingEntry& entry : data_set.training) {
+    const bool builtin = entry.mesh && entry.path == entry.source && entry.path.rfind("builtin:", 0) == 0;
+    if (builtin) continue;
+    try {
+      sks::confinedPath(entry.path, directory);
+    } catch (const Error& error) {
+      throw Error(error.code(), data_set.file + ": a cloud of object '" + entry.object + "': " + error.what());
+    }
+  }
+}
+
+void add(sks::DataSet data_set, const std::string& prefix, const std::string& directory,
+         const sks::MeshSampler& sampler, TrainingSet& set) {
+  checkConfined(data_set, directory);
+  for (sks::TrainingEntry& entry : data_set.training) entry.source = prefix + entry.source;
+  const std::vector<sks::TrainingSample> samples = sks::trainingSamples(data_set, sampler);
+  set.samples.insert(set.samples.end(), samples.begin(), samples.end());
+  set.warnings.insert(set.warnings.end(), data_set.warnings.begin(), data_set.warnings.end());
+}
+
+}  // namespace
+
+TrainingSet gatherTrainingSet(const std::string& dataset, bool captured, const sks::CapturedViews& views,
+                              const std::string& directory, const sks::MeshSampler& sampler) {
+  TrainingSet set;
+  if (!dataset.empty()) {
+    const sks::DataSet data_set = sks::loadDataSet(sks::confinedPath(dataset, directory));
+    set.name = data_set.name;
+    add(data_set, "", directory, sampler, set);
+    if (set.samples.empty()) {
+      throw Error(ErrorCode::bad_data, "'" + data_set.file + "' has no training clouds; list them under 'training'");
+    }
+  }
+  if (captured || dataset.empty()) {
+    const sks::DataSet data_set = views.read();
+    if (set.name.empty()) set.name = data_set.name;
+    add(data_set, dataset.empty() ? "" : "captured/", directory, sampler, set);
+    if (set.samples.empty()) {
+      throw Error(ErrorCode::bad_usage,
+                  "there is nothing to train: no view was captured yet (~capture_view), and no data set is given");
+    }
+  }
+  return set;
+}
+
+}  // namespace sks_detector

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <sks_detector/captured_views.hpp>
+#include <sks_detector/dataset.hpp>
+#include <sks_detector/trainer.hpp>
+
+namespace sks_detector {
+
+/// What one training is made from.
+struct TrainingSet {
+  std::string name;  ///< of the data set
+  std::vector<sks::TrainingSample> samples;
+  std::vector<std::string> warnings;
+};
+
+/// Gathers a training set from a data set file and the captured views.
+/// @param dataset inside `directory`, as are all clouds that it names; empty: captured views only
+/// @param captured whether the captured views are added to those of the data set
+/// @throws sks::Error naming the file and line, or what lies outside of the directory
+TrainingSet gatherTrainingSet(const std::string& dataset, bool captured, const sks::CapturedViews& views,
+                              const std::string& directory, const sks::MeshSampler& sampler);
+
+}  // namespace sks_detector
