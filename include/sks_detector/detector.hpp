@@ -11,6 +11,8 @@
 
 namespace sks {
 
+class Verifier;
+
 /// Finds the objects of a codebook in clouds: composes the stages of section 3.2. One instance per thread; same cloud,
 /// same result, for any number of threads.
 class Detector {
@@ -19,7 +21,7 @@ public:
   ///         differ from what the codebook was trained with
   Detector(std::shared_ptr<const Codebook> codebook, const Settings& settings);
 
-  /// The same codebook with other settings; shares what was built for matching, so that it costs nothing.
+  /// The same codebook with other settings; shares what was built for the codebook, so that it costs nothing.
   /// @throws like the constructor
   Detector withSettings(const Settings& settings) const;
 
@@ -31,11 +33,10 @@ public:
   const Settings& settings() const { return settings_; }
 
 private:
-  Detector(std::shared_ptr<const Codebook> codebook, const Settings& settings, std::shared_ptr<const Matcher> matcher);
-
   std::shared_ptr<const Codebook> codebook_;
   Settings settings_;
   std::shared_ptr<const Matcher> matcher_;
+  std::shared_ptr<const Verifier> verifier_;
 };
 
 }  // namespace sks

@@ -184,6 +184,27 @@ struct RefinementSettings {
   }
 };
 
+struct VerificationSettings {
+  int candidates = 40;
+  double support_distance = 0.008;
+  double support_angle = 0.45;
+  double occlusion_distance = 0.015;
+  double half_evidence = 3.2;
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& s, Visitor&& v) {
+    v(s.candidates, "candidates", Range{0, 1000}, "",
+      "poses of each object, from single correspondences, that are refined and compared with the stored surface; 0: "
+      "hypotheses are the Hough maxima that pass RANSAC, scored by their votes alone, as published");
+    v(s.support_distance, "support_distance", Range{0.0005, 0.1}, "m",
+      "a point of the stored surface is confirmed by a scene point within this distance");
+    v(s.support_angle, "support_angle", Range{0.01, 1.5}, "rad", "... whose normal deviates by no more than this");
+    v(s.occlusion_distance, "occlusion_distance", Range{0.0005, 0.5}, "m",
+      "what lies this far behind the scene's surface is hidden; what lies this far in front of it should be seen");
+    v(s.half_evidence, "half_evidence", Range{0.001, 1000}, "", "evidence that scores 0.5 (docs/method.md)");
+  }
+};
+
 struct DetectionSettings {
   double threshold = 0.5;
   double half_density = 8.0;
@@ -192,7 +213,8 @@ struct DetectionSettings {
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
     v(s.threshold, "threshold", Range{0, 1}, "", "lowest score of a detection that is reported");
-    v(s.half_density, "half_density", Range{0.001, 10000}, "votes", "density of the inliers' votes that scores 0.5");
+    v(s.half_density, "half_density", Range{0.001, 10000}, "votes",
+      "density of the inliers' votes that scores 0.5 where poses are not verified");
     v(s.max_per_object, "max_per_object", Range{1, 1000}, "", "most hypotheses of one object in one scene");
   }
 };
@@ -216,6 +238,7 @@ struct Settings {
   VotingSettings voting;
   RansacSettings ransac;
   RefinementSettings refinement;
+  VerificationSettings verification;
   DetectionSettings detection;
   TrainingSettings training;
   int threads = 0;
@@ -229,6 +252,7 @@ struct Settings {
     v.group("voting", s.voting);
     v.group("ransac", s.ransac);
     v.group("refinement", s.refinement);
+    v.group("verification", s.verification);
     v.group("detection", s.detection);
     v.group("training", s.training);
     v(s.threads, "threads", Range{0, 256}, "", "threads for training and detection; 0: one for each core");

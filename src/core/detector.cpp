@@ -5,13 +5,13 @@
 #include <tuple>
 
 #include <sks_detector/error.hpp>
-#include <sks_detector/hypothesis.hpp>
-#include <sks_detector/refinement.hpp>
 #include <sks_detector/sanitize.hpp>
 #include <sks_detector/voting.hpp>
 
+#include "core/hough_hypotheses.hpp"
 #include "core/score.hpp"
 #include "core/stopwatch.hpp"
+#include "core/verification.hpp"
 
 namespace sks {
 namespace {
@@ -43,39 +43,6 @@ Keypoints sceneKeypoints(const Surface& surface, const Settings& settings, int t
   return keypoints;
 }
 
-/// The Hough spaces' maxima, strongest first within each object.
-std::vector<std::pair<std::uint32_t, Maximum>> allMaxima(const std::vector<std::vector<Vote>>& spaces,
-                                                         const Settings& settings, int threads) {
-  std::vector<std::vector<Maximum>> by_object(spaces.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t object = 0; object < spaces.size(); ++object) {
-    std::vector<Eigen::Vector3f> positions;
-    for (const Vote& vote : spaces[object]) positions.push_back(vote.position);
-    by_object[object] = findMaxima(positions, settings.voting);
-    const std::size_t limit = std::size_t(settings.detection.max_per_object);
-    if (by_object[object].size() > limit) by_object[object].resize(limit);
-  }
-  std::vector<std::pair<std::uint32_t, Maximum>> maxima;
-  for (std::size_t object = 0; object < by_object.size(); ++object) {
-    for (auto& maximum : by_object[object]) maxima.emplace_back(std::uint32_t(object), std::move(maximum));
-  }
-  return maxima;
-}
-
-void refine(std::vector<Hypothesis>& hypotheses, const Codebook& codebook, const Surface& scene,
-            const RefinementSettings& settings, int threads) {
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-    Hypothesis& hypothesis = hypotheses[i];
-    if (hypothesis.density < settings.min_density) continue;
-    const TrainingView& view = codebook.views[hypothesis.view];
-    const Eigen::Isometry3d T_model_box = hypothesis.T_scene_model.inverse() * hypothesis.T_scene_box;
-    hypothesis.T_scene_model =
-        refinePose(view.surface_points, view.surface_normals, scene, settings, hypothesis.T_scene_model);
-    hypothesis.T_scene_box = hypothesis.T_scene_model * T_model_box;
-  }
-}
-
 Detection toDetection(const Codebook& codebook, const Hypothesis& hypothesis, const Settings& settings) {
   Detection detection;
   detection.object = codebook.objects[hypothesis.object];
@@ -84,9 +51,10 @@ Detection toDetection(const Codebook& codebook, const Hypothesis& hypothesis, co
   detection.T_scene_box = hypothesis.T_scene_box;
   detection.box_size = hypothesis.box_size;
   detection.density = hypothesis.density;
+  detection.evidence = hypothesis.evidence;
   detection.votes = hypothesis.votes;
   detection.inliers = std::uint32_t(hypothesis.inliers.size());
-  detection.score = score(hypothesis, settings.detection);
+  detection.score = score(hypothesis, settings);
   return detection;
 }
 
@@ -112,16 +80,13 @@ bool better(const Detection& a, const Detection& b) {
 Detector::Detector(std::shared_ptr<const Codebook> codebook, const Settings& settings)
     : codebook_(std::move(codebook)),
       settings_(checkedSettings(*codebook_, settings)),
-      matcher_(std::make_shared<Matcher>(codebook_->descriptors)) {}
-
-Detector::Detector(std::shared_ptr<const Codebook> codebook, const Settings& settings,
-                   std::shared_ptr<const Matcher> matcher)
-    : codebook_(std::move(codebook)),
-      settings_(checkedSettings(*codebook_, settings)),
-      matcher_(std::move(matcher)) {}
+      matcher_(std::make_shared<Matcher>(codebook_->descriptors)),
+      verifier_(std::make_shared<Verifier>(codebook_)) {}
 
 Detector Detector::withSettings(const Settings& settings) const {
-  return Detector(codebook_, settings, matcher_);
+  Detector other = *this;
+  other.settings_ = checkedSettings(*codebook_, settings);
+  return other;
 }
 
 DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) const {
@@ -155,17 +120,15 @@ DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) con
 
   const auto votes = castVotes(*codebook_, matches, descriptors, keypoints);
   if (inspection) inspect(keypoints, votes, *inspection);
-  const auto maxima = allMaxima(votes, settings_, threads);
-  times.voting = stage.lap();
-
   std::vector<Hypothesis> hypotheses;
-  for (const auto& [object, maximum] : maxima) {
-    Hypothesis hypothesis;
-    if (estimateHypothesis(*codebook_, object, votes[object], maximum, settings_, hypothesis)) {
-      hypotheses.push_back(std::move(hypothesis));
-    }
+  if (settings_.verification.candidates > 0) {
+    times.voting = stage.lap();
+    hypotheses = verifier_->findPoses(votes, surface, settings_, threads);
+  } else {
+    const auto maxima = findAllMaxima(votes, settings_, threads);
+    times.voting = stage.lap();
+    hypotheses = houghHypotheses(*codebook_, votes, maxima, surface, settings_, threads);
   }
-  if (settings_.refinement.iterations > 0) refine(hypotheses, *codebook_, surface, settings_.refinement, threads);
   for (const Hypothesis& hypothesis : hypotheses) {
     result.detections.push_back(toDetection(*codebook_, hypothesis, settings_));
   }

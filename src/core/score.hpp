@@ -6,8 +6,9 @@
 
 namespace sks {
 
-/// Confidence in [0, 1) of a hypothesis by itself, independent of whatever else is in the scene: grows with the density
-/// of its inliers' votes and is 0.5 at `detection.half_density`.
-double score(const Hypothesis& hypothesis, const DetectionSettings& settings);
+/// Confidence in [0, 1) of a hypothesis, comparable across scenes. Where poses are verified: logistic in the logarithm
+/// of the evidence, 0.5 at `verification.half_evidence`. Else it grows with the density of its inliers' votes and is
+/// 0.5 at `detection.half_density`.
+double score(const Hypothesis& hypothesis, const Settings& settings);
 
 }  // namespace sks

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/pose_candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/vote_density.hpp"
+
+namespace sks {
+namespace {
+
+constexpr int fewest_supported = 6;  // points, as many as a rigid motion has degrees of freedom
+
+Eigen::Isometry3d poseOf(const Vote& vote, const Codeword& word) {
+  Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
+  T_scene_model.linear() = Eigen::Quaterniond(vote.rotation.cast<double>()).normalized().toRotationMatrix();
+  T_scene_model.translation() = vote.keypoint.cast<double>() - T_scene_model.linear() * word.position.cast<double>();
+  return T_scene_model;
+}
+
+}  // namespace
+
+std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<std::vector<Vote>>& spaces,
+                                          const SceneView& scene, const Settings& settings, int threads) {
+  std::vector<PoseCandidate> all;
+  for (std::uint32_t object = 0; object < spaces.size(); ++object) {
+    const std::vector<Vote>& votes = spaces[object];
+    const VoteDensity density(votes, settings.voting.bandwidth);
+    std::vector<PoseCandidate> candidates(votes.size());
+#pragma omp parallel for schedule(dynamic, 16) num_threads(threads)
+    for (std::size_t i = 0; i < votes.size(); ++i) {
+      const Codeword& word = codebook.words[votes[i].word];
+      PoseCandidate& candidate = candidates[i];
+      candidate = {object, word.view, poseOf(votes[i], word), 0};
+      const RoughSupport support = glance(codebook.views[word.view], scene, candidate.T_scene_model);
+      if (support.supported < fewest_supported) continue;
+      candidate.promise = support.share * std::sqrt(support.supported * density.at(votes[i].position));
+    }
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const PoseCandidate& a, const PoseCandidate& b) { return a.promise > b.promise; });
+    for (std::size_t i = 0; i < candidates.size() && int(i) < settings.verification.candidates; ++i) {
+      if (candidates[i].promise > 0) all.push_back(candidates[i]);
+    }
+  }
+  return all;
+}
+
+}  // namespace sks

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <sks_detector/codebook.hpp>
+#include <sks_detector/settings.hpp>
+#include <sks_detector/surface.hpp>
+
+#include "core/large_planes.hpp"
+#include "core/range_image.hpp"
+
+namespace sks {
+
+/// A scene as poses are compared with it. Refers to the surface.
+struct SceneView {
+  SceneView(const Surface& scene, const Settings& settings)
+      : surface(scene), range_image(scene, float(settings.surface.normal_radius)), planes(findLargePlanes(scene)) {}
+
+  const Surface& surface;
+  RangeImage range_image;
+  std::vector<LargePlane> planes;
+};
+
+/// How telling each point of a view's stored surface is, in [0, 1]: how much the normals around it vary, less what noise
+/// makes of a plane. Flat parts fit many things.
+std::vector<float> distinctiveness(const TrainingView& view);
+
+/// What the scene says to a view's stored surface in some pose. Areas are in m^2; weighted ones are multiplied with how
+/// telling the surface is. What is hidden, or lies on a plane larger than the object, speaks neither way.
+struct PoseEvidence {
+  double facing = 0;              ///< area that faces the sensor
+  double supported = 0;           ///< of that, confirmed by scene points with matching normals
+  double weighted_visible = 0;    ///< weighted area that should be seen; half where nothing was measured
+  double weighted_supported = 0;  ///< of that, confirmed
+  std::vector<std::uint32_t> partners;  ///< the scene points that confirm it
+};
+
+PoseEvidence examinePose(const TrainingView& view, const std::vector<float>& weights, const SceneView& scene,
+                         const Settings& settings, const Eigen::Isometry3d& T_scene_model);
+
+/// A quick look at a rough pose: how many of up to 80 points of the view's surface the scene confirms, and which share
+/// of those that should be seen.
+struct RoughSupport {
+  int supported = 0;
+  double share = 0;
+};
+
+RoughSupport glance(const TrainingView& view, const SceneView& scene, const Eigen::Isometry3d& T_scene_model);
+
+}  // namespace sks

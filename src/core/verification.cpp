@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/verification.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+
+#include <sks_detector/refinement.hpp>
+
+#include "core/pose_candidates.hpp"
+#include "core/vote_density.hpp"
+
+namespace sks {
+namespace {
+
+constexpr double area_unit = 1e-4;       // [m^2] areas enter the evidence in cm^2
+constexpr double prior_area = 0.25e-4;   // [m^2] so that a share of next to nothing is next to nothing
+constexpr double largest_claimed = 0.5;  // of the confirming points; else a hypothesis claims none itself
+
+/// A hypothesis and the part of the scene that it explains.
+struct Examined {
+  Hypothesis hypothesis;
+  std::vector<std::uint32_t> partners;
+};
+
+/// The evidence grows with the share of the visible surface that is confirmed, with its telling area, with the share of
+/// all that faces the sensor, and with the votes for the place.
+double evidenceOf(const PoseEvidence& pose, double density) {
+  const double share = pose.weighted_supported / (pose.weighted_visible + prior_area);
+  const double coverage = pose.supported / (pose.facing + prior_area);
+  return share * std::sqrt(pose.weighted_supported / area_unit * coverage) * std::sqrt(std::sqrt(density));
+}
+
+/// Votes for a place whose correspondences fit the pose.
+std::vector<std::uint32_t> inliersOf(const Codebook& codebook, const std::vector<Vote>& votes,
+                                     const Hypothesis& hypothesis, double threshold) {
+  const std::string& frame = codebook.views[hypothesis.view].frameName();
+  std::vector<std::uint32_t> inliers;
+  for (std::size_t i = 0; i < votes.size(); ++i) {
+    const Codeword& word = codebook.words[votes[i].word];
+    if (word.view != hypothesis.view && codebook.views[word.view].frameName() != frame) continue;
+    const Eigen::Vector3d place = hypothesis.T_scene_model * word.position.cast<double>();
+    if ((place - votes[i].keypoint.cast<double>()).norm() <= threshold) inliers.push_back(std::uint32_t(i));
+  }
+  return inliers;
+}
+
+bool better(const Examined& a, const Examined& b) {
+  const auto key = [](const Hypothesis& h) {
+    const Eigen::Vector3d p = h.T_scene_box.translation();
+    return std::make_tuple(-h.evidence, h.object, p.x(), p.y(), p.z());
+  };
+  return key(a.hypothesis) < key(b.hypothesis);
+}
+
+/// Of hypotheses for one object at one place the best; `examined` is sorted.
+std::vector<Examined> suppressNonMaxima(std::vector<Examined> examined, const Codebook& codebook,
+                                        const Settings& settings) {
+  std::vector<Examined> kept;
+  std::vector<int> count(codebook.objects.size(), 0);
+  for (Examined& candidate : examined) {
+    const Hypothesis& a = candidate.hypothesis;
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Examined& other) {
+      const Hypothesis& b = other.hypothesis;
+      const double distance = (a.T_scene_box.translation() - b.T_scene_box.translation()).norm();
+      return a.object == b.object && distance < settings.voting.suppression_radius;
+    });
+    if (known || count[a.object] >= settings.detection.max_per_object) continue;
+    ++count[a.object];
+    kept.push_back(std::move(candidate));
+  }
+  return kept;
+}
+
+/// Each scene point belongs to the best hypothesis that explains it: the others lose their evidence by that share.
+void resolveConflicts(std::vector<Examined>& examined, const Surface& scene, float distance) {
+  std::vector<char> claimed(scene.size(), 0);
+  std::vector<PointGrid::Run> runs;
+  for (Examined& candidate : examined) {
+    const auto& partners = candidate.partners;
+    if (partners.empty()) continue;
+    const auto taken = std::count_if(partners.begin(), partners.end(), [&](std::uint32_t i) { return claimed[i]; });
+    const double share = double(taken) / double(partners.size());
+    candidate.hypothesis.evidence *= 1 - share;
+    if (share >= largest_claimed) continue;
+    for (const std::uint32_t i : partners) {
+      scene.forEachNeighbor(scene.point(i), distance, runs, [&](std::uint32_t j, float) { claimed[j] = 1; });
+    }
+  }
+}
+
+}  // namespace
+
+Verifier::Verifier(std::shared_ptr<const Codebook> codebook) : codebook_(std::move(codebook)) {
+  for (const TrainingView& view : codebook_->views) weights_.push_back(distinctiveness(view));
+}
+
+std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>& spaces, const Surface& surface,
+                                            const Settings& settings, int threads) const {
+  const SceneView scene(surface, settings);
+  const std::vector<PoseCandidate> candidates = poseCandidates(*codebook_, spaces, scene, settings, threads);
+  std::vector<VoteDensity> densities;
+  for (const auto& votes : spaces) densities.emplace_back(votes, settings.voting.bandwidth);
+
+  std::vector<Examined> examined(candidates.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const PoseCandidate& candidate = candidates[i];
+    const TrainingView& view = codebook_->views[candidate.view];
+    Hypothesis& hypothesis = examined[i].hypothesis;
+    hypothesis.object = candidate.object;
+    hypothesis.view = candidate.view;
+    hypothesis.T_scene_model =
+        refinePose(view.surface_points, view.surface_normals, surface, settings.refinement, candidate.T_scene_model);
+    hypothesis.T_scene_box = hypothesis.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
+    hypothesis.box_size = view.extent().cast<double>();
+    const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();
+    hypothesis.density = densities[candidate.object].at(center);
+    hypothesis.votes = densities[candidate.object].count(center);
+    PoseEvidence evidence = examinePose(view, weights_[candidate.view], scene, settings, hypothesis.T_scene_model);
+    hypothesis.evidence = evidenceOf(evidence, hypothesis.density);
+    examined[i].partners = std::move(evidence.partners);
+  }
+  std::sort(examined.begin(), examined.end(), better);
+  examined = suppressNonMaxima(std::move(examined), *codebook_, settings);
+  resolveConflicts(examined, surface, float(settings.verification.support_distance));
+  std::sort(examined.begin(), examined.end(), better);
+
+  std::vector<Hypothesis> hypotheses;
+  for (Examined& candidate : examined) {
+    Hypothesis& hypothesis = candidate.hypothesis;
+    hypothesis.inliers =
+        inliersOf(*codebook_, spaces[hypothesis.object], hypothesis, settings.ransac.inlier_threshold);
+    hypotheses.push_back(std::move(hypothesis));
+  }
+  return hypotheses;
+}
+
+}  // namespace sks
