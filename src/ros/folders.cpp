@@ -32,8 +32,8 @@ std::string absolute(const std::string& directory) {
 
 std::string codebookDirectory(const NodeSettings& settings) {
   if (!settings.codebook_directory.empty()) return absolute(settings.codebook_directory);
-  const fs::path of_codebook = fs::absolute(settings.codebook).parent_path();
-  return settings.codebook.empty() ? (rosHome() / "sks_detector").string() : of_codebook.string();
+  if (settings.codebook.empty()) return (rosHome() / "sks_detector").string();
+  return fs::absolute(settings.codebook).parent_path().string();
 }
 
 std::string datasetDirectory(const NodeSettings& settings) {
