@@ -4,6 +4,7 @@
 #include <array>
 #include <fstream>
 #include <mutex>
+#include <sstream>
 #include <vector>
 
 #include <sks_detector/error.hpp>
@@ -117,11 +118,9 @@ std::string serialNumber(const openni::Device& device) {
 }
 
 std::string openNi2Error() {
-  std::string text = openni::OpenNI::getExtendedError();
-  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-  for (char& c : text) {
-    if (c == '\n') c = ';';
-  }
+  std::istringstream lines(openni::OpenNI::getExtendedError());
+  std::string line, text;
+  while (std::getline(lines >> std::ws, line)) text += (text.empty() ? "" : "; ") + line;
   return text.empty() ? "no reason given" : text;
 }
 
