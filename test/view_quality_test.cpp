@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sks_detector/view_quality.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <gmock/gmock.h>
@@ -55,6 +57,15 @@ TEST(ViewQuality, RemarksOnTheBordersOfWhatWasMeasured) {
                              window(cloud, 10, 17, 30, 30)}) {
     EXPECT_THAT(assessView(cloud, points, Settings()).remarks, cut_off);
   }
+}
+
+TEST(ViewQuality, ObjectsMayStandOutFromAllElse) {
+  Cloud cloud = image(0.002f);
+  const auto points = window(cloud, 10, 5, 30, 30);
+  for (std::size_t i = 0; i < 20 * cloud.width; ++i) {  // nothing but the object in the upper rows
+    if (std::find(points.begin(), points.end(), i) == points.end()) cloud.points[i].x() = NAN;
+  }
+  EXPECT_THAT(assessView(cloud, points, Settings()).remarks, IsEmpty());
 }
 
 TEST(ViewQuality, RemarksOnFewAndCoarsePoints) {

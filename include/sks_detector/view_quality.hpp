@@ -21,7 +21,7 @@ struct ViewQuality {
 };
 
 /// Looks at the object that `points` of a cloud show: whether it is whole, near enough for the settings, coloured.
-/// @param points indices of finite points, at least one
+/// @param points ascending indices of finite points, at least one
 ViewQuality assessView(const Cloud& cloud, const std::vector<std::uint32_t>& points, const Settings& settings);
 
 }  // namespace sks

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t few_points = 500;
 constexpr double normal_radius_per_spacing = 2.5;  // below it too few neighbours for a normal remain
-constexpr std::uint32_t border = 2;                // pixels at which an object counts as cut off
+constexpr std::int64_t border = 2;                 // pixels at which an object counts as cut off
 
 std::string millimetres(double metres) {
   char text[32];
@@ -42,18 +42,27 @@ double medianSpacing(const Cloud& cloud, const std::vector<std::uint32_t>& point
   return *middle;
 }
 
-/// Whether the object reaches the border of the part of an image in which anything was measured.
+/// Whether the object reaches the border of the image, or of the part of it in which anything else was measured.
 bool isCutOff(const Cloud& cloud, const std::vector<std::uint32_t>& points) {
   if (!cloud.organized()) return false;
   using Box = Eigen::AlignedBox<std::int64_t, 2>;
   const auto pixel = [&](std::size_t i) { return Box::VectorType(i % cloud.width, i / cloud.width); };
-  Box measured, object;
+  const Box image(pixel(0), pixel(cloud.size() - 1));
+  Box others, object;
+  auto next = points.begin();
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (cloud.points[i].allFinite()) measured.extend(pixel(i));
+    if (next != points.end() && *next == i) {
+      object.extend(pixel(i));
+      ++next;
+    } else if (cloud.points[i].allFinite()) {
+      others.extend(pixel(i));
+    }
   }
-  for (const std::uint32_t i : points) object.extend(pixel(i));
-  return ((object.min() - measured.min()).array() < border).any() ||
-         ((measured.max() - object.max()).array() < border).any();
+  const auto touches = [&](const Box& box) {
+    return !box.isEmpty() && (((object.min() - box.min()).array().abs() < border).any() ||
+                              ((object.max() - box.max()).array().abs() < border).any());
+  };
+  return touches(image) || touches(others);
 }
 
 }  // namespace

@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Training by service: what it makes, what it refuses, and that frames go on meanwhile."""
+import os
+import threading
+import unittest
+
+import rospy
+import rostest
+
+import services_support
+import support
+import synthetic
+from sks_detector.msg import DetectionArray, Status
+
+THING = {"object": "thing", "cloud": "thing.pcd", "kind": "view"}
+
+
+class Call(threading.Thread):
+    """A service call in the background."""
+
+    def __init__(self, node, service, **fields):
+        super().__init__()
+        self._call = lambda: node.call(service, **fields)
+        self.reply = None
+        self.start()
+
+    def run(self):
+        try:
+            self.reply = self._call()
+        except rospy.ServiceException:
+            pass  # the node is gone
+
+    def result(self):
+        self.join(support.PATIENCE)
+        assert self.reply is not None, "the service did not reply"
+        return self.reply
+
+
+class TrainingServicesTest(services_support.ServicesTest):
+    def setUp(self):
+        self.old = self.succeed("load_codebook", "synthetic.sks").codebook
+
+    def tearDown(self):
+        super().tearDown()
+        self.node.call("cancel_training")
+        self.wait_for_status(lambda s: s.state != Status.TRAINING, "the end of the training")
+
+    def start_slow_training(self, **fields):
+        self.write_slow_dataset()
+        call = Call(self.node, "train", dataset="slow.yaml", **fields)
+        self.wait_for_status(lambda s: s.state == Status.TRAINING and s.progress_fraction > 0, "a training's progress")
+        return call
+
+    def expect_old_codebook(self):
+        self.assertEqual(self.succeed("info").codebook, self.old)
+        found = self.succeed("detect", support.cloud_message(synthetic.scene()), 0).detections
+        self.assertEqual({d.object for d in found.detections}, {"round", "thing"})
+        self.wait_for_status(lambda s: s.state != Status.TRAINING and not s.progress, "the end of the training")
+
+    def test_trains_saves_and_swaps_in(self):
+        trained = self.succeed("train", dataset="synthetic.yaml", name="toys", output="new/toys.sks")
+        self.assertRegex(trained.codebook, r"^toys \([0-9a-f]{8}\)$")
+        self.assertEqual((trained.objects, trained.views), (2, 2))
+        self.assertGreater(trained.words, 50)
+        self.assertGreater(trained.seconds, 0)
+        info = self.succeed("info")
+        self.assertEqual(info.codebook, trained.codebook)
+        self.assertEqual(info.codebook_file, os.path.join(self.node.codebooks, "new/toys.sks"))
+        found = self.succeed("detect", support.cloud_message(synthetic.scene()), 0).detections
+        self.assertEqual({d.object for d in found.detections}, {"round", "thing"})
+        self.assertEqual(found.codebook, trained.codebook)
+        self.assertEqual(self.succeed("load_codebook", "new/toys.sks").codebook, trained.codebook)
+
+    def test_keeps_existing_files_unless_told(self):
+        with open(os.path.join(self.node.codebooks, "synthetic.sks"), "rb") as file:
+            before = file.read()
+        self.refuse("train", "holds the codebook synthetic (", "overwrite", dataset="synthetic.yaml",
+                    output="synthetic.sks")
+        with open(os.path.join(self.node.codebooks, "synthetic.sks"), "rb") as file:
+            self.assertEqual(file.read(), before)
+        self.succeed("train", dataset="synthetic.yaml", output="copy.sks")
+        self.succeed("train", dataset="synthetic.yaml", output="copy.sks", overwrite=True)
+
+    def test_takes_settings_of_its_own(self):
+        self.succeed("train", dataset="synthetic.yaml", settings=["descriptor.radius=0.06", "keypoints.grid_size=0.03"])
+        settings = self.succeed("info").settings
+        self.assertIn("radius: 0.06", settings)
+        self.assertIn("grid_size: 0.02", settings)  # a scene's is not bound to the codebook
+        self.succeed("train", dataset="synthetic.yaml")
+        self.assertIn("radius: 0.05", self.succeed("info").settings)
+
+    def test_refuses_what_cannot_be_trained_and_keeps_the_old_codebook(self):
+        self.write_dataset("missing_cloud.yaml", [{"object": "thing", "cloud": "gone.pcd", "kind": "view"}])
+        self.write_dataset("none.yaml", [], tests=[{"object": "thing", "cloud": "thing.pcd"}])
+        self.write_dataset("damaged.yaml", [THING, {"object": "thing", "cloud": "damaged.pcd", "kind": "view"}])
+        with open(os.path.join(self.node.datasets, "damaged.pcd"), "w") as file:
+            file.write("VERSION 0.7\n")
+        for fields, reasons in (
+                ({"dataset": "nothing.yaml"}, ["nothing.yaml", "No such file"]),
+                ({"dataset": "missing_cloud.yaml"}, ["missing_cloud.yaml:", "gone.pcd"]),
+                ({"dataset": "thing.pcd"}, ["thing.pcd"]),
+                ({"dataset": "none.yaml"}, ["no training clouds"]),
+                ({"dataset": "damaged.yaml"}, ["damaged.pcd"]),
+                ({}, ["no view was captured yet"]),
+                ({"dataset": "synthetic.yaml", "settings": ["descriptor.radus=1"]}, ["did you mean", "descriptor.radius"]),
+                ({"dataset": "synthetic.yaml", "settings": ["descriptor.radius=9"]}, ["descriptor.radius", "9"]),
+                ({"dataset": "synthetic.yaml", "settings": ["descriptor.radius=0.005"]}, ["surface.normal_radius"]),
+                ({"dataset": "synthetic.yaml", "settings": ["shot"]}, ["key=value"])):
+            with self.subTest(fields):
+                self.refuse("train", *reasons, **fields)
+                self.expect_old_codebook()
+
+    def test_refuses_data_sets_that_reach_out(self):
+        outside = os.path.join(self.folder, "secret.pcd")
+        os.link(os.path.join(self.node.datasets, "thing.pcd"), outside)
+        self.write_dataset("reaching.yaml", [{"object": "thing", "cloud": "../secret.pcd", "kind": "view"}])
+        self.refuse("train", "reaching.yaml", "'thing'", outside, "outside", self.node.datasets,
+                    dataset="reaching.yaml")
+        self.refuse("train", "outside", self.node.datasets, dataset="../datasets2/x.yaml")
+        self.refuse("train", "outside", dataset="/etc/passwd")
+        # out and in again is inside
+        self.write_dataset("returning.yaml", [dict(THING, cloud="../datasets/thing.pcd")])
+        self.succeed("train", dataset="returning.yaml")
+
+    def test_refuses_a_second_training_and_other_changes(self):
+        call = self.start_slow_training()
+        self.refuse("train", "a training runs already", "~cancel_training", dataset="synthetic.yaml")
+        self.refuse("load_codebook", "a training runs", path="synthetic.sks")
+        self.refuse("remove_object", "a training runs", object="thing")
+        self.assertEqual(self.succeed("info").codebook, self.old)
+        self.succeed("save_codebook", "meanwhile.sks", True)
+        self.succeed("cancel_training")
+        self.assertFalse(call.result().success)
+        self.succeed("train", dataset="synthetic.yaml")
+
+    def test_can_be_cancelled(self):
+        self.refuse("cancel_training", "no training runs")
+        call = self.start_slow_training(output="cancelled.sks")
+        self.succeed("cancel_training")
+        reply = call.result()
+        self.assertFalse(reply.success)
+        self.assertRegex(reply.message, r"training was cancelled after \d+ of 400")
+        self.assertNotIn("cancelled.sks", os.listdir(self.node.codebooks))
+        self.expect_old_codebook()
+
+    def test_detects_with_the_old_codebook_until_the_new_one_is_whole(self):
+        listener = support.Recorder("/detector/detections", DetectionArray)
+        self.addCleanup(listener.close)
+        self.source.wait_for_subscriber()
+        self.write_slow_dataset(views=400)
+        scene = synthetic.scene()
+        call = Call(self.node, "train", dataset="slow.yaml")
+        self.wait_for_status(lambda s: s.state == Status.TRAINING and s.progress_fraction > 0, "a training's progress")
+        seen, during = [], 0
+        while call.is_alive():
+            answer = listener.wait_for_stamp(self.source.send(support.cloud_message(scene)))
+            seen.append(answer.codebook)
+            during += answer.codebook == self.old
+            expected = {"round", "thing"} if answer.codebook == self.old else {"thing"}
+            self.assertEqual({d.object for d in answer.detections}, expected)
+        new = call.result().codebook
+        self.assertGreater(during, 2)
+        answer = listener.wait_for_stamp(self.source.send(support.cloud_message(scene)))
+        self.assertEqual(answer.codebook, new)
+        self.assertEqual([c for c in seen if c != self.old], [new] * (len(seen) - during), "one swap")
+
+    def test_trains_meshes_where_there_is_a_virtual_camera(self):
+        self.write_dataset("meshes.yaml", [{"object": "mug", "cloud": "builtin:mug", "kind": "mesh"}])
+        reply = self.node.call("train", dataset="meshes.yaml")
+        if "without its virtual camera" in reply.message:
+            raise unittest.SkipTest(reply.message)
+        self.assertTrue(reply.success, reply.message)
+        self.assertEqual(self.succeed("info").objects, ["mug"])
+        self.assertEqual(reply.views, 42)
+
+    def test_ends_quickly_while_it_trains(self):
+        call = self.start_slow_training(output="ended.sks")
+        self.assertEqual(self.node.stop(), 0)
+        call.join(support.PATIENCE)
+        self.assertTrue(call.reply is None or not call.reply.success)
+        self.assertNotIn("ended.sks", os.listdir(self.node.codebooks))
+        self.status.clear()
+        self.node.start()
+
+
+if __name__ == "__main__":
+    rospy.init_node("services_training_test")
+    rostest.rosrun("sks_detector", "services_training", TrainingServicesTest)
