@@ -5,26 +5,42 @@
 
 namespace {
 
-double scoreOf(double density, double half_density = 8) {
+double scoreOfDensity(double density, double half_density = 8) {
   sks::Hypothesis hypothesis;
   hypothesis.density = density;
-  sks::DetectionSettings settings;
-  settings.half_density = half_density;
+  sks::Settings settings;
+  settings.verification.candidates = 0;
+  settings.detection.half_density = half_density;
+  return sks::score(hypothesis, settings);
+}
+
+double scoreOfEvidence(double evidence, double half_evidence) {
+  sks::Hypothesis hypothesis;
+  hypothesis.evidence = evidence;
+  sks::Settings settings;
+  settings.verification.half_evidence = half_evidence;
   return sks::score(hypothesis, settings);
 }
 
 }  // namespace
 
 TEST(Score, GrowsFromZeroBelowOne) {
-  EXPECT_EQ(scoreOf(0), 0);
-  double previous = 0;
-  for (const double density : {0.1, 1.0, 3.0, 8.0, 20.0, 100.0, 1e4, 1e6}) {
-    EXPECT_GT(scoreOf(density), previous);
-    previous = scoreOf(density);
-    EXPECT_LT(previous, 1);
+  EXPECT_EQ(scoreOfDensity(0), 0);
+  EXPECT_EQ(scoreOfEvidence(0, 3), 0);
+  double by_density = 0, by_evidence = 0;
+  for (const double value : {0.1, 1.0, 3.0, 8.0, 20.0, 100.0, 1e3}) {
+    EXPECT_GT(scoreOfDensity(value), by_density);
+    EXPECT_GT(scoreOfEvidence(value, 3), by_evidence);
+    by_density = scoreOfDensity(value);
+    by_evidence = scoreOfEvidence(value, 3);
+    EXPECT_LT(by_density, 1);
+    EXPECT_LT(by_evidence, 1);
   }
 }
 
-TEST(Score, IsOneHalfAtTheHalfDensity) {
-  for (const double half : {0.5, 8.0, 120.0}) EXPECT_DOUBLE_EQ(scoreOf(half, half), 0.5);
+TEST(Score, IsOneHalfAtTheHalfDensityAndEvidence) {
+  for (const double half : {0.5, 8.0, 120.0}) {
+    EXPECT_DOUBLE_EQ(scoreOfDensity(half, half), 0.5);
+    EXPECT_DOUBLE_EQ(scoreOfEvidence(half, half), 0.5);
+  }
 }

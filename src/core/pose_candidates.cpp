@@ -9,6 +9,7 @@
 namespace sks {
 namespace {
 
+constexpr int most_at_a_place = 8;   // candidates of one object whose box centres are near each other
 constexpr int fewest_supported = 6;  // points, as many as a rigid motion has degrees of freedom
 
 Eigen::Isometry3d poseOf(const Vote& vote, const Codeword& word) {
@@ -16,6 +17,25 @@ Eigen::Isometry3d poseOf(const Vote& vote, const Codeword& word) {
   T_scene_model.linear() = Eigen::Quaterniond(vote.rotation.cast<double>()).normalized().toRotationMatrix();
   T_scene_model.translation() = vote.keypoint.cast<double>() - T_scene_model.linear() * word.position.cast<double>();
   return T_scene_model;
+}
+
+/// The best ones, spread over the places that votes point to: a strong instance leaves room for others of its object.
+std::vector<PoseCandidate> mostPromising(std::vector<PoseCandidate> candidates, const Codebook& codebook,
+                                         const Settings& settings) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const PoseCandidate& a, const PoseCandidate& b) { return a.promise > b.promise; });
+  const double radius = settings.voting.suppression_radius;
+  std::vector<PoseCandidate> kept;
+  std::vector<Eigen::Vector3d> places;
+  for (const PoseCandidate& candidate : candidates) {
+    if (candidate.promise <= 0 || int(kept.size()) >= settings.verification.candidates) break;
+    const Eigen::Vector3d place = candidate.T_scene_model * codebook.views[candidate.view].center().cast<double>();
+    const auto near = [&](const Eigen::Vector3d& other) { return (place - other).norm() < radius; };
+    if (std::count_if(places.begin(), places.end(), near) >= most_at_a_place) continue;
+    kept.push_back(candidate);
+    places.push_back(place);
+  }
+  return kept;
 }
 
 }  // namespace
@@ -36,11 +56,8 @@ std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::v
       if (support.supported < fewest_supported) continue;
       candidate.promise = support.share * std::sqrt(support.supported * density.at(votes[i].position));
     }
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const PoseCandidate& a, const PoseCandidate& b) { return a.promise > b.promise; });
-    for (std::size_t i = 0; i < candidates.size() && int(i) < settings.verification.candidates; ++i) {
-      if (candidates[i].promise > 0) all.push_back(candidates[i]);
-    }
+    const std::vector<PoseCandidate> best = mostPromising(std::move(candidates), codebook, settings);
+    all.insert(all.end(), best.begin(), best.end());
   }
   return all;
 }

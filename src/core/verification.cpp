@@ -32,16 +32,19 @@ double evidenceOf(const PoseEvidence& pose, double density) {
   return share * std::sqrt(pose.weighted_supported / area_unit * coverage) * std::sqrt(std::sqrt(density));
 }
 
-/// Votes for a place whose correspondences fit the pose.
+/// Votes for the place of the hypothesis whose correspondences fit its pose.
 std::vector<std::uint32_t> inliersOf(const Codebook& codebook, const std::vector<Vote>& votes,
-                                     const Hypothesis& hypothesis, double threshold) {
+                                     const Hypothesis& hypothesis, const Settings& settings) {
+  const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();
   const std::string& frame = codebook.views[hypothesis.view].frameName();
   std::vector<std::uint32_t> inliers;
   for (std::size_t i = 0; i < votes.size(); ++i) {
     const Codeword& word = codebook.words[votes[i].word];
     if (word.view != hypothesis.view && codebook.views[word.view].frameName() != frame) continue;
     const Eigen::Vector3d place = hypothesis.T_scene_model * word.position.cast<double>();
-    if ((place - votes[i].keypoint.cast<double>()).norm() <= threshold) inliers.push_back(std::uint32_t(i));
+    const bool here = (votes[i].position - center).norm() <= settings.voting.bandwidth;
+    const bool fits = (place - votes[i].keypoint.cast<double>()).norm() <= settings.ransac.inlier_threshold;
+    if (here && fits) inliers.push_back(std::uint32_t(i));
   }
   return inliers;
 }
@@ -130,8 +133,7 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
   std::vector<Hypothesis> hypotheses;
   for (Examined& candidate : examined) {
     Hypothesis& hypothesis = candidate.hypothesis;
-    hypothesis.inliers =
-        inliersOf(*codebook_, spaces[hypothesis.object], hypothesis, settings.ransac.inlier_threshold);
+    hypothesis.inliers = inliersOf(*codebook_, spaces[hypothesis.object], hypothesis, settings);
     hypotheses.push_back(std::move(hypothesis));
   }
   return hypotheses;
