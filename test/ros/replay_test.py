@@ -120,7 +120,8 @@ class ReplayTest(unittest.TestCase):
 
     def test_a_loop_goes_on_until_it_is_interrupted(self):
         bag = os.path.join(self.data, "scenes.bag")
-        process = launch(self.folder, bag=bag, loop="true", rate=8, linger=0, record=self.found)
+        process = launch(self.folder, bag=bag, codebook=support.CODEBOOK, loop="true", rate=8, linger=0,
+                         record=self.found)
         self.addCleanup(process.kill)
         # the bag lasts half a second at this rate: what holds four frames has begun anew
         size = 1.8 * os.path.getsize(bag)
