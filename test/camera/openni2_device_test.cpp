@@ -8,11 +8,13 @@
 
 #include "driver/synthetic_view.hpp"
 #include "error_of.hpp"
+#include "points_of.hpp"
 #include "ros/camera/openni2_device.hpp"
-#include "ros/camera/organized_cloud.hpp"
 
 namespace sks_detector {
 namespace {
+
+using sks::test::pointsOf;
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -39,7 +41,7 @@ CameraSettings settingsFor(const std::string& device, int width = 320, int heigh
 /// Number of pixels that differ from the synthetic view by more than rounding.
 int countWrong(const CameraFrame& frame) {
   const sks::test::SyntheticView view{frame.depth.width, frame.depth.height};
-  const auto points = organizedCloud(frame);
+  const auto points = pointsOf(frame);
   int wrong = 0;
   for (int v = 0; v < view.height; ++v) {
     for (int u = 0; u < view.width; ++u) {

@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include "ros/camera/organized_cloud.hpp"
+#include "points_of.hpp"
 
 namespace sks_detector {
 namespace {
+
+using sks::test::pointsOf;
 
 /// A depth image of one distance.
 CameraFrame flatFrame(int width, int height, std::uint16_t depth) {
@@ -20,7 +22,7 @@ CameraFrame flatFrame(int width, int height, std::uint16_t depth) {
 
 TEST(OrganizedCloud, ProjectsPixelsBackThroughThePinhole) {
   CameraFrame frame = flatFrame(4, 2, 2000);
-  const auto points = organizedCloud(frame);
+  const auto points = pointsOf(frame);
   ASSERT_EQ(points.size(), 8U);
   EXPECT_FLOAT_EQ(points[0].x, -1.5F / 500 * 2);
   EXPECT_FLOAT_EQ(points[0].y, -0.5F / 400 * 2);
@@ -32,19 +34,19 @@ TEST(OrganizedCloud, ProjectsPixelsBackThroughThePinhole) {
 TEST(OrganizedCloud, IsNanWhereNothingWasMeasured) {
   CameraFrame frame = flatFrame(2, 1, 1000);
   frame.depth.pixels[0] = 0;
-  const auto points = organizedCloud(frame);
+  const auto points = pointsOf(frame);
   EXPECT_TRUE(std::isnan(points[0].x) && std::isnan(points[0].y) && std::isnan(points[0].z));
   EXPECT_FLOAT_EQ(points[1].z, 1);
 }
 
 TEST(OrganizedCloud, HasNoColourWithoutColourImage) {
-  EXPECT_EQ(organizedCloud(flatFrame(1, 1, 1000))[0].rgb, 0U);
+  EXPECT_EQ(pointsOf(flatFrame(1, 1, 1000))[0].rgb, 0U);
 }
 
 TEST(OrganizedCloud, TakesColoursFromTheSamePixel) {
   CameraFrame frame = flatFrame(2, 1, 1000);
   frame.color = {2, 1, 0, {1, 2, 3, 0xaa, 0xbb, 0xcc}};
-  const auto points = organizedCloud(frame);
+  const auto points = pointsOf(frame);
   EXPECT_EQ(points[0].rgb, 0x010203U);
   EXPECT_EQ(points[1].rgb, 0xaabbccU);
 }
@@ -55,7 +57,7 @@ TEST(OrganizedCloud, TakesColoursInProportionFromALargerImage) {
   for (int pixel = 0; pixel < 8; ++pixel) {
     for (int channel = 0; channel < 3; ++channel) frame.color.pixels.push_back(std::uint8_t(pixel));
   }
-  const auto points = organizedCloud(frame);
+  const auto points = pointsOf(frame);
   EXPECT_EQ(points[0].rgb, 0x050505U);
   EXPECT_EQ(points[1].rgb, 0x070707U);
 }
@@ -63,7 +65,7 @@ TEST(OrganizedCloud, TakesColoursInProportionFromALargerImage) {
 TEST(OrganizedCloud, TakesColoursInProportionFromASmallerImage) {
   CameraFrame frame = flatFrame(4, 1, 1000);
   frame.color = {2, 1, 0, {1, 1, 1, 2, 2, 2}};
-  const auto points = organizedCloud(frame);
+  const auto points = pointsOf(frame);
   EXPECT_EQ(points[1].rgb, 0x010101U);
   EXPECT_EQ(points[2].rgb, 0x020202U);
 }

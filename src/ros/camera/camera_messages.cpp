@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/camera/camera_messages.hpp"
 
-#include <cstring>
+#include <cstddef>
 
 #include <sensor_msgs/distortion_models.h>
 #include <sensor_msgs/image_encodings.h>
@@ -52,7 +52,8 @@ sensor_msgs::PointCloud2Ptr cloudMessage(const CameraFrame& frame, const std_msg
   message->point_step = sizeof(OrganizedPoint);
   message->row_step = message->width * message->point_step;
   message->is_dense = 0;
-  copyBytes(organizedCloud(frame), message->data);
+  message->data.resize(std::size_t(message->row_step) * message->height);
+  organizedCloud(frame, reinterpret_cast<OrganizedPoint*>(message->data.data()));  // 5 MB are not copied once more
   return message;
 }
 

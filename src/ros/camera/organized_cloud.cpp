@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <vector>
 
 namespace sks_detector {
 namespace {
@@ -23,7 +24,7 @@ std::vector<float> slopes(int count, double center, double focal_length) {
   return result;
 }
 
-void backProject(const DepthImage& depth, const Intrinsics& intrinsics, std::vector<OrganizedPoint>& points) {
+void backProject(const DepthImage& depth, const Intrinsics& intrinsics, OrganizedPoint* points) {
   const std::vector<float> slope_x = slopes(depth.width, intrinsics.cx, intrinsics.fx);
   const std::vector<float> slope_y = slopes(depth.height, intrinsics.cy, intrinsics.fy);
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -36,7 +37,7 @@ void backProject(const DepthImage& depth, const Intrinsics& intrinsics, std::vec
   }
 }
 
-void paint(const ColorImage& color, int width, int height, std::vector<OrganizedPoint>& points) {
+void paint(const ColorImage& color, int width, int height, OrganizedPoint* points) {
   const std::vector<int> columns = proportional(width, color.width);
   const std::vector<int> rows = proportional(height, color.height);
   std::size_t i = 0;
@@ -51,11 +52,9 @@ void paint(const ColorImage& color, int width, int height, std::vector<Organized
 
 }  // namespace
 
-std::vector<OrganizedPoint> organizedCloud(const CameraFrame& frame) {
-  std::vector<OrganizedPoint> points(frame.depth.pixels.size());
+void organizedCloud(const CameraFrame& frame, OrganizedPoint* points) {
   backProject(frame.depth, frame.intrinsics, points);
   if (!frame.color.pixels.empty()) paint(frame.color, frame.depth.width, frame.depth.height, points);
-  return points;
 }
 
 }  // namespace sks_detector

@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <type_traits>
-#include <vector>
 
 #include "ros/camera/camera_frame.hpp"
 
@@ -18,8 +17,8 @@ struct OrganizedPoint {
 };
 static_assert(sizeof(OrganizedPoint) == 16 && std::is_trivially_copyable_v<OrganizedPoint>);
 
-/// One point for each pixel of the depth image, in the camera's optical frame. A colour image of another size is taken
-/// to show the same view: each point gets the pixel at its place in proportion.
-std::vector<OrganizedPoint> organizedCloud(const CameraFrame& frame);
+/// Writes one point for each pixel of the depth image, in the camera's optical frame. A colour image of another size is
+/// taken to show the same view: each point gets the pixel at its place in proportion.
+void organizedCloud(const CameraFrame& frame, OrganizedPoint* points);
 
 }  // namespace sks_detector
