@@ -77,7 +77,7 @@ protected:
 
 TEST_F(BagEvaluate, ScoresLikeEvaluate) {
   const json all = result();
-  EXPECT_EQ(all["dataset"], "/ground_truth");
+  EXPECT_EQ(all["dataset"], "test.bag");
   EXPECT_EQ(all["method"], "/found");
   EXPECT_EQ(all["scenes"], 2);
   EXPECT_EQ(all["unanswered"], 1);
@@ -103,7 +103,7 @@ TEST_F(BagEvaluate, ScoresLikeEvaluate) {
 
 TEST_F(BagEvaluate, SaysWhatIsOdd) {
   const CommandRun run = evaluate();
-  EXPECT_THAT(run.output, HasSubstr("/ground_truth, /found: 2 scenes, threshold 0.500, within 50 mm"));
+  EXPECT_THAT(run.output, HasSubstr("test.bag, /found: 2 scenes, threshold 0.500, within 50 mm"));
   EXPECT_THAT(run.errors, HasSubstr("1 clouds with ground truth have no detections"));
   EXPECT_THAT(run.errors, HasSubstr("object 'bowl' of the ground truth is never detected: was it trained?"));
   write([](rosbag::Bag& bag) {

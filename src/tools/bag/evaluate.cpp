@@ -62,7 +62,7 @@ RecordedTruth findTruth(const BagFile& bag, const Options& options, const std::s
                                          "' has no topic of ground truth (sks_detector/DetectionArray, "
                                          "called ground_truth): name it with --ground-truth, or give --dataset FILE");
   }
-  return truthFromArrays(readDetections(bag, ground_truth), found, options.max_distance);
+  return truthFromArrays(options.bag, readDetections(bag, ground_truth), found, options.max_distance);
 }
 
 /// The clouds of the scenes that were scored, from the bag.

@@ -53,9 +53,10 @@ std::vector<std::string> oddNames(const RecordedTruth& truth, const RecordedDete
 
 }  // namespace
 
-RecordedTruth truthFromArrays(const RecordedDetections& truth, const RecordedDetections& found, double max_distance) {
+RecordedTruth truthFromArrays(const std::string& bag, const RecordedDetections& truth, const RecordedDetections& found,
+                              double max_distance) {
   RecordedTruth result;
-  result.name = truth.topic;
+  result.name = std::filesystem::path(bag).filename().string();
   result.max_distance = max_distance;
   for (const auto& [stamp, array] : truth.arrays) {
     const auto other = found.arrays.find(stamp);

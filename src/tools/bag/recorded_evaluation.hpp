@@ -13,13 +13,17 @@ namespace sks::tools {
 
 /// What stands in the clouds, by their stamps.
 struct RecordedTruth {
-  std::string name;         ///< of the data set, or of the bag and topic
+  std::string name;         ///< of the data set, or the bag's file
   double max_distance = 0;  ///< of the matching rule [m]
   std::map<ros::Time, Scene> scenes;
 };
 
-/// Ground truth that was recorded. @throws Error(bad_data) where detections are in another frame than their truth
-RecordedTruth truthFromArrays(const RecordedDetections& truth, const RecordedDetections& found, double max_distance);
+/// Ground truth that was recorded.
+/// @param bag path of its file
+/// @throws Error(bad_data) where detections are in another
+/// frame than their truth
+RecordedTruth truthFromArrays(const std::string& bag, const RecordedDetections& truth, const RecordedDetections& found,
+                              double max_distance);
 
 /// Ground truth of a data set file: scenes called by the stamps of their clouds, as `sks bag extract` does, or as many
 /// scenes as there are stamps, in their order.
