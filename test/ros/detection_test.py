@@ -18,6 +18,7 @@ class DetectionTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.detections = support.Recorder("/detector/detections", DetectionArray)
+        cls.status = support.Recorder("/detector/status", Status)
         cls.source = support.CloudSource("/points")
 
     def answer(self, message):
@@ -48,6 +49,93 @@ class DetectionTest(unittest.TestCase):
             answer = self.answer(message)
             self.expect_both(answer)
             self.assertEqual(answer.header.frame_id, "camera")
+
+    def test_answers_unusable_clouds_with_an_empty_array_and_lives_on(self):
+        for name, broken, _ in unusable_clouds():
+            with self.subTest(name):
+                answer = self.answer(broken)
+                self.assertEqual(answer.detections, [])
+                self.assertEqual(answer.header.frame_id, "camera")
+                self.expect_both(self.answer(support.cloud_message(synthetic.scene())))
+
+    def test_names_the_topic_and_the_reason_of_an_unusable_cloud(self):
+        for name, broken, reason in unusable_clouds():
+            with self.subTest(name):
+                # an error of a kind is reported at most once a second
+                support.wait_for(lambda: self.answer(broken) and reason in self.status.messages[-1].last_error, reason)
+                self.assertIn("/points", self.status.messages[-1].last_error)
+
+    def test_answers_a_scene_without_objects_with_an_empty_array(self):
+        self.assertEqual(self.answer(support.cloud_message(synthetic.scene(names=()))).detections, [])
+
+    def test_markers_clear_first_and_an_empty_scene_clears(self):
+        markers = support.Recorder("/detector/markers", MarkerArray)
+        support.wait_for(lambda: markers.connections() > 0, "a connection to the markers")
+        self.answer(support.cloud_message(synthetic.scene()))
+        shown = markers.wait_for(lambda m: len(m.markers) > 1).markers
+        self.assertEqual([m.action for m in shown], [Marker.DELETEALL] + 6 * [Marker.ADD])
+        self.assertEqual({m.header.frame_id for m in shown}, {"camera"})
+        boxes = {m.id: m for m in shown if m.ns == "boxes"}
+        labels = {m.id: m for m in shown if m.ns == "labels"}
+        self.assertEqual(sorted(m.text.split()[0] for m in labels.values()), ["round", "thing"])
+        for index, box in boxes.items():
+            name = labels[index].text.split()[0]
+            np.testing.assert_allclose(support.position_of(box.pose), synthetic.position(name), atol=0.01)
+            self.assertEqual(len(box.points), 24)
+        markers.clear()
+        self.answer(support.cloud_message(synthetic.scene(names=())))
+        cleared = markers.wait_for(lambda m: len(m.markers) == 1).markers
+        self.assertEqual(cleared[0].action, Marker.DELETEALL)
+        markers.close()
+
+    def test_shows_keypoints_and_votes_to_who_asks(self):
+        keypoints = support.Recorder("/detector/keypoints", PointCloud2)
+        votes = support.Recorder("/detector/votes", PointCloud2)
+        support.wait_for(lambda: keypoints.connections() and votes.connections(), "connections")
+        stamp = self.source.send(support.cloud_message(synthetic.scene()))
+        for cloud, fields in ((keypoints.wait_for_stamp(stamp), "xyz"), (votes.wait_for_stamp(stamp), "xyzrgb")):
+            self.assertEqual("".join(f.name for f in cloud.fields), fields)
+            self.assertEqual(cloud.header.frame_id, "camera")
+            self.assertGreater(cloud.width * cloud.height, 50)
+            points = support.points_of(cloud)
+            self.assertTrue(np.isfinite(points).all())
+            self.assertLess(np.abs(points - [0, 0, 0.9]).max(), 0.6)
+        near = np.linalg.norm(support.points_of(votes.messages[0]) - synthetic.position("thing"), axis=1) < 0.02
+        self.assertGreater(near.sum(), 20)
+        keypoints.close()
+        votes.close()
+
+
+def unusable_clouds():
+    """(name, message, part of the reason)"""
+    def changed(change, points=None):
+        message = support.cloud_message(synthetic.scene(("thing",)) if points is None else points)
+        change(message)
+        return message
+
+    def without_z(message):
+        del message.fields[2]
+
+    def integers(message):
+        for field in message.fields:
+            field.datatype = 5
+
+    def far_offset(message):
+        message.fields[1].offset = 4000000000
+
+    return [
+        ("empty", changed(lambda m: None, np.zeros((0, 3))), "empty (0 points)"),
+        ("nothing at all", support.PointCloud2(header=support.cloud_message(np.zeros((1, 3))).header), "empty (0 points)"),
+        ("all NaN", changed(lambda m: None, np.full((120, 160, 3), np.nan)), "19200 are NaN"),
+        ("no z", changed(without_z), "no field 'z'"),
+        ("integers", changed(integers), "holds integers"),
+        ("big-endian", changed(lambda m: setattr(m, "is_bigendian", True)), "big-endian"),
+        ("truncated", changed(lambda m: setattr(m, "data", m.data[:-1])), "but holds 230399 bytes"),
+        ("too long", changed(lambda m: setattr(m, "data", m.data + b"0")), "but holds 230401 bytes"),
+        ("points without bytes", changed(lambda m: setattr(m, "point_step", 0)), "but holds"),
+        ("field outside", changed(far_offset), "field 'y' lies outside"),
+        ("millimetres", changed(lambda m: None, 1000 * synthetic.scene()), "looks like millimetres"),
+    ]
 
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the tests of the node have in common."""
 import os
+import signal
+import subprocess
 import threading
 import time
 
@@ -57,6 +59,9 @@ class Recorder:
     def wait_for_stamp(self, stamp, timeout=PATIENCE):
         return self.wait_for(lambda m: m.header.stamp == stamp, "an answer to the cloud of %s" % stamp, timeout)
 
+    def connections(self):
+        return self._subscriber.get_num_connections()
+
     def close(self):
         self._subscriber.unregister()
 
@@ -85,6 +90,12 @@ def cloud_message(points, frame="camera", stamp=None, colors=None, color_field="
     message.is_dense = bool(np.isfinite(points).all())
     message.data = np.ascontiguousarray(columns, np.float32).tobytes()
     return message
+
+
+def points_of(message):
+    """The positions of a cloud whose fields start with x, y, z: N x 3 [m]."""
+    rows = np.frombuffer(message.data, np.uint8).reshape(-1, message.point_step)[:, :12]
+    return np.ascontiguousarray(rows).view(np.float32)
 
 
 class CloudSource:
@@ -122,3 +133,49 @@ def matrix_of(pose):
 def log_messages(recorder, text):
     """Messages of /rosout_agg that contain a text."""
     return [m.msg for m in recorder.messages if text in m.msg]
+
+
+class Node:
+    """detector_node in a process of its own, with its output; ends it when the `with` block is left."""
+
+    def __init__(self, name="detector", parameters=None, arguments=()):
+        self.name = name
+        for key, value in (parameters or {}).items():
+            rospy.set_param("/%s/%s" % (name, key), value)
+        self._lines = []
+        self._process = subprocess.Popen(
+            ["rosrun", "sks_detector", "detector_node", "__name:=" + name, "~points:=/points", *arguments],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+        self._reader = threading.Thread(target=self._read)
+        self._reader.start()
+
+    def _read(self):
+        for line in self._process.stdout:
+            self._lines.append(line)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        status = self.stop()
+        rospy.delete_param("/" + self.name)
+        assert status == 0, "exit status %s of %s:\n%s" % (status, self.name, self.output())
+
+    def alive(self):
+        return self._process.poll() is None
+
+    def output(self):
+        return "".join(self._lines)
+
+    def wait_for_output(self, *texts):
+        """Waits until one line of the output holds all the texts."""
+        return wait_for(lambda: next((line for line in list(self._lines) if all(t in line for t in texts)), None),
+                        "%s in the output of %s" % (texts, self.name))
+
+    def stop(self):
+        """Ends it as Ctrl-C does; the exit status."""
+        if self.alive():
+            self._process.send_signal(signal.SIGINT)
+        status = self._process.wait(PATIENCE)
+        self._reader.join()
+        return status

@@ -67,7 +67,7 @@ def view(placed, width=160, height=120, pixel=0.0025):
 
 
 TRAINED = {"thing": pose(35, (1, 2, 0.5), (0, 0, 0.8)), "round": pose(35, (1, 2, 0.5), (0, 0, 0.8))}
-PLACED = {"thing": pose(50, (1, 2, 0.4), (-0.1, 0.02, 0.85)), "round": pose(25, (1, 2, 0.5), (0.1, 0, 0.75))}
+PLACED = {"thing": pose(50, (1, 2, 0.4), (-0.1, 0.02, 0.85)), "round": pose(40, (1, 2, 0.6), (0.1, 0, 0.75))}
 
 
 def training_view(name):

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <exception>
+#include <iostream>
 
 #include <ros/ros.h>
 
@@ -11,6 +12,6 @@ int main(int argc, char** argv) try {
   ros::spin();
   return 0;
 } catch (const std::exception& error) {
-  ROS_FATAL("the detector does not start: %s", error.what());
+  std::cerr << "the detector does not start: " << error.what() << "\n";  // the log is closed by now
   return 1;
 }
