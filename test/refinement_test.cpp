@@ -3,16 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <sks_detector/sanitize.hpp>
-
+#include "prepared.hpp"
 #include "synthetic.hpp"
 
 namespace sks::test {
 namespace {
-
-Surface prepared(const Cloud& cloud, Orientation orientation) {
-  return prepareSurface(sanitize(cloud, SanitizeSettings()), SurfaceSettings(), orientation, 2);
-}
 
 /// A full model, and what a camera sees of it at a pose.
 class Refinement : public ::testing::Test {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/large_planes.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "prepared.hpp"
+#include "synthetic.hpp"
+
+namespace sks::test {
+namespace {
+
+TEST(LargePlanes, FindsTableAndWallWithTheirExtents) {
+  const Shape wall{{Solid::Shape::box, {0, 0, 0}, {0.6f, 0.4f, 0.01f}}};
+  const Shape table{{Solid::Shape::box, {0, 0, 0}, {0.5f, 0.01f, 0.2f}}};
+  const Surface scene = prepared(view({{wall, poseOf(0, {0, 0, 1}, {0, 0, 1.5f})},
+                                       {table, poseOf(0, {0, 0, 1}, {0, 0.3f, 1.2f})},
+                                       {asymmetricShape(), poseOf(35, {1, 2, 0.5f}, {0, 0.05f, 1.1f})}},
+                                      0.0025f, 400, 300));
+  const auto planes = findLargePlanes(scene);
+  ASSERT_GE(planes.size(), 2u);
+  const Eigen::Vector3f to_camera(0, 0, -1), up(0, -1, 0);  // y points down
+  EXPECT_NEAR(planeExtentAt(planes, {0.3f, -0.2f, 1.49f}, to_camera), 0.7f, 0.15f);
+  EXPECT_NEAR(planeExtentAt(planes, {0.3f, 0.29f, 1.2f}, up), 0.4f, 0.1f);
+  EXPECT_EQ(planeExtentAt(planes, {0.3f, 0.29f, 1.2f}, to_camera), 0);  // at the table, but not of it
+  EXPECT_EQ(planeExtentAt(planes, {0.3f, 0, 1.0f}, to_camera), 0);      // in the air
+}
+
+TEST(LargePlanes, OfRoundThingsAreSmall) {
+  for (const LargePlane& plane : findLargePlanes(prepared(sphere(0.15f, 0.004f, {0, 0, 1})))) {
+    EXPECT_LT(plane.extent, 0.15f);
+  }
+}
+
+TEST(LargePlanes, OfTinyScenesAreNone) {
+  EXPECT_TRUE(findLargePlanes(prepared(plane(0.03f, 0.005f))).empty());
+}
+
+TEST(LargePlanes, AreTheSameEachTime) {
+  const Surface scene = prepared(view({{asymmetricShape(), poseOf(35, {1, 2, 0.5f}, {0, 0, 0.8f})}}));
+  const auto a = findLargePlanes(scene), b = findLargePlanes(scene);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].normal, b[i].normal);
+}
+
+}  // namespace
+}  // namespace sks::test

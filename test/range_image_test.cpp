@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/range_image.hpp"
+
+#include <gtest/gtest.h>
+
+#include "prepared.hpp"
+#include "synthetic.hpp"
+
+namespace sks::test {
+namespace {
+
+/// A wall of 1 m at z = 1 and, before its right half, one at z = 0.7.
+Cloud twoWalls() {
+  const Shape back{{Solid::Shape::box, {0, 0, 0}, {0.5f, 0.5f, 0.005f}}};
+  const Shape front{{Solid::Shape::box, {0, 0, 0}, {0.15f, 0.3f, 0.005f}}};
+  return view({{back, poseOf(0, {0, 0, 1}, {0, 0, 1.005f})}, {front, poseOf(0, {0, 0, 1}, {0.15f, 0, 0.705f})}}, 0.0025f,
+              400, 400);
+}
+
+TEST(RangeImage, KnowsWhatIsHiddenSeenAndSeenThrough) {
+  const RangeImage image(prepared(twoWalls()), 0.01f);
+  EXPECT_EQ(image.look({-0.2f, 0, 1.0f}, 0.015f), Sight::at);
+  EXPECT_EQ(image.look({-0.2f, 0, 1.01f}, 0.015f), Sight::at);
+  EXPECT_EQ(image.look({-0.2f, 0, 1.1f}, 0.015f), Sight::hidden);
+  EXPECT_EQ(image.look({-0.2f, 0, 0.9f}, 0.015f), Sight::in_front);
+  EXPECT_EQ(image.look({0.1f, 0, 0.7f}, 0.015f), Sight::at);
+  EXPECT_EQ(image.look({0.1f, 0, 1.0f}, 0.015f), Sight::hidden);
+}
+
+TEST(RangeImage, KnowsNothingOfWhatWasNotMeasured) {
+  const RangeImage image(prepared(twoWalls()), 0.01f);
+  EXPECT_EQ(image.look({0.8f, 0, 1}, 0.015f), Sight::unknown);     // beside the wall
+  EXPECT_EQ(image.look({-0.2f, 0, -1}, 0.015f), Sight::unknown);   // behind the camera
+  EXPECT_EQ(image.look({0, 0, 0}, 0.015f), Sight::unknown);        // the camera itself
+}
+
+TEST(RangeImage, MovesWithTheSensor) {
+  const Eigen::Isometry3f T = poseOf(130, {1, 2, 3}, {3, -1, 0.5f});
+  const RangeImage image(prepared(transformed(twoWalls(), T)), 0.01f);
+  EXPECT_EQ(image.look(T * Eigen::Vector3f(-0.2f, 0, 1.1f), 0.015f), Sight::hidden);
+  EXPECT_EQ(image.look(T * Eigen::Vector3f(-0.2f, 0, 0.9f), 0.015f), Sight::in_front);
+}
+
+}  // namespace
+}  // namespace sks::test
