@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <tuple>
 
 #include <sensor_msgs/CameraInfo.h>
 #include <sks_detector/DetectionArray.h>
