@@ -9,7 +9,6 @@ namespace sks {
 namespace {
 
 constexpr float weight_radius = 0.02f;      // [m] the scale of the keypoints' local surfaces
-constexpr float weight_of_noise = 0.02f;    // what normals of a plane vary by, from a Kinect at 1 m
 constexpr float grazing = 0.17f;            // cosine; surfaces turned away by more than 80 degrees are hardly measured
 constexpr std::size_t most_points = 1500;   // of a stored surface that are examined
 constexpr std::size_t glance_points = 80;
@@ -64,7 +63,7 @@ std::vector<float> distinctiveness(const TrainingView& view) {
       sum += view.surface_normals[grid.source[j]];
       ++count;
     });
-    if (count > 0) weights[i] = std::max(0.0f, 1 - sum.norm() / float(count) - weight_of_noise);
+    if (count > 0) weights[i] = std::max(0.0f, 1 - sum.norm() / float(count));
   }
   return weights;
 }

@@ -25,8 +25,8 @@ struct SceneView {
   std::vector<LargePlane> planes;
 };
 
-/// How telling each point of a view's stored surface is, in [0, 1]: how much the normals around it vary, less what noise
-/// makes of a plane. Flat parts fit many things.
+/// How telling each point of a view's stored surface is, in [0, 1]: how much the normals around it vary. Flat parts fit
+/// many things.
 std::vector<float> distinctiveness(const TrainingView& view);
 
 /// What the scene says to a view's stored surface in some pose. Areas are in m^2; weighted ones are multiplied with how

@@ -29,7 +29,7 @@ struct Examined {
 double evidenceOf(const PoseEvidence& pose, double density) {
   const double share = pose.weighted_supported / (pose.weighted_visible + prior_area);
   const double coverage = pose.supported / (pose.facing + prior_area);
-  return share * std::sqrt(pose.weighted_supported / area_unit * coverage) * std::sqrt(std::sqrt(density));
+  return share * std::sqrt(pose.weighted_supported / area_unit * coverage) * std::cbrt(density);
 }
 
 /// Votes for the place of the hypothesis whose correspondences fit its pose.
