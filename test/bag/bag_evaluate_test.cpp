@@ -131,6 +131,23 @@ TEST_F(BagEvaluate, TakesTheTruthFromADataSet) {
               HasSubstr("has 2 scenes, the bag 3 stamps: call each scene by the stamp of its cloud"));
 }
 
+TEST_F(BagEvaluate, KnowsSymmetriesFromADataSet) {
+  write([](rosbag::Bag& bag) {
+    writeTruth(bag);
+    sks_detector::Detection turned = detection("mug", 0, 0.9);
+    turned.view = "elsewhere/mug.obj";
+    turned.pose.pose.orientation.z = 1;  // half a turn
+    turned.pose.pose.orientation.w = 0;
+    bag.write("/found", at(0.1), detections(0, {turned}));
+  });
+  EXPECT_NEAR(result()["pose"]["rotation_error_deg"]["median"], 180, 1e-6);
+  writeCloud(folder_.path("mug.obj"), test::wall());
+  test::writeFile(folder_.path("models.yaml"),
+                  "name: models\nunits: m\ntraining:\n  - {object: mug, cloud: mug.obj, kind: mesh, symmetry: {axis: "
+                  "[0, 0, 1], order: 2}}\n");
+  EXPECT_NEAR(result({"--symmetries", folder_.path("models.yaml")})["pose"]["rotation_error_deg"]["median"], 0, 1e-6);
+}
+
 TEST_F(BagEvaluate, DrawsTheScenes) {
   const CommandRun run = evaluate({"--plot", folder_.path("plots")});
   ASSERT_EQ(run.status, 0) << run.errors;

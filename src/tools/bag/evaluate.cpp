@@ -23,6 +23,7 @@ struct Options {
   std::string data_set;
   std::string detections;
   std::string ground_truth;
+  std::string symmetries;
   std::string topic;
   double max_distance = 0.05;
   double threshold = Settings().detection.threshold;
@@ -62,7 +63,9 @@ RecordedTruth findTruth(const BagFile& bag, const Options& options, const std::s
                                          "' has no topic of ground truth (sks_detector/DetectionArray, "
                                          "called ground_truth): name it with --ground-truth, or give --dataset FILE");
   }
-  return truthFromArrays(options.bag, readDetections(bag, ground_truth), found, options.max_distance);
+  RecordedTruth truth = truthFromArrays(options.bag, readDetections(bag, ground_truth), found, options.max_distance);
+  if (!options.symmetries.empty()) addSymmetries(loadDataSet(options.symmetries), truth);
+  return truth;
 }
 
 /// The clouds of the scenes that were scored, from the bag.
@@ -128,6 +131,11 @@ void addBagEvaluate(CLI::App& bag) {
       ->type_name("TOPIC");
   command->add_option("--ground-truth", options->ground_truth, "topic of the truth (default: the one called so)")
       ->type_name("TOPIC")
+      ->excludes(data_set);
+  command
+      ->add_option("--symmetries", options->symmetries,
+                   "data set file whose training entries tell how the objects in the bag's ground truth are symmetric")
+      ->type_name("FILE")
       ->excludes(data_set);
   command->add_option("--topic,-t", options->topic, "topic of the clouds (default: the only one)")->type_name("TOPIC");
   command

@@ -12,12 +12,14 @@ namespace sks::tools {
 namespace {
 
 /// References are named as seen from a data set file, views as seen by whoever trained: the file's name must do.
+bool sameModel(const std::string& a, const std::string& b) {
+  return !a.empty() && std::filesystem::path(a).filename() == std::filesystem::path(b).filename();
+}
+
 void nameReferencesLikeViews(Scene& scene, const std::vector<Detection>& detections) {
-  const auto file = [](const std::string& name) { return std::filesystem::path(name).filename(); };
   for (GroundTruth& truth : scene.objects) {
     for (const Detection& detection : detections) {
-      const bool same =
-          detection.object == truth.object && !truth.reference.empty() && file(detection.view) == file(truth.reference);
+      const bool same = detection.object == truth.object && sameModel(truth.reference, detection.view);
       if (same) truth.reference = detection.view;
     }
   }
@@ -68,6 +70,17 @@ RecordedTruth truthFromArrays(const std::string& bag, const RecordedDetections& 
     result.scenes[stamp] = groundTruthScene(stampText(stamp), array.detections);
   }
   return result;
+}
+
+void addSymmetries(const DataSet& data_set, RecordedTruth& truth) {
+  for (auto& [stamp, scene] : truth.scenes) {
+    for (GroundTruth& object : scene.objects) {
+      for (const TrainingEntry& entry : data_set.training) {
+        const bool same = entry.object == object.object && sameModel(object.reference, entry.source);
+        if (same) object.symmetry = entry.symmetry;
+      }
+    }
+  }
 }
 
 RecordedTruth truthFromDataSet(const DataSet& data_set, const std::vector<ros::Time>& stamps) {

@@ -25,6 +25,10 @@ struct RecordedTruth {
 RecordedTruth truthFromArrays(const std::string& bag, const RecordedDetections& truth, const RecordedDetections& found,
                               double max_distance);
 
+/// Gives ground truth that was recorded the symmetries that a data set file declares for the models of the same object
+/// and file name.
+void addSymmetries(const DataSet& data_set, RecordedTruth& truth);
+
 /// Ground truth of a data set file: scenes called by the stamps of their clouds, as `sks bag extract` does, or as many
 /// scenes as there are stamps, in their order.
 /// @param stamps of the clouds, or of the detections where there are no clouds
