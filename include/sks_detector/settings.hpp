@@ -189,7 +189,7 @@ struct VerificationSettings {
   double support_distance = 0.008;
   double support_angle = 0.45;
   double occlusion_distance = 0.015;
-  double half_evidence = 3.2;
+  double half_evidence = 3.8;
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
