@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <geometry_msgs/TransformStamped.h>
+#include <ros/init.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include "ros/cloud_message.hpp"
@@ -32,6 +33,8 @@ DetectionOutput::DetectionOutput(ros::NodeHandle& private_handle, std::function<
 DetectionOutput::~DetectionOutput() {
   keep_markers_.stop();
   clearMarkers();
+  // what is published is sent by another thread, if the connections are still there
+  if (ros::ok() && markers_.getNumSubscribers() > 0) ros::WallDuration(0.1).sleep();
 }
 
 bool DetectionOutput::listened() const {

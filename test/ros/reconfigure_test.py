@@ -39,13 +39,13 @@ class ReconfigureTest(unittest.TestCase):
     def test_changes_what_is_in_force(self):
         detections = support.Recorder("/detector/detections", DetectionArray)
         source = support.CloudSource("/points")
-        found = detections.wait_for_stamp(source.send(support.cloud_message(synthetic.scene())))
+        found = support.answer(source, support.cloud_message(synthetic.scene()), detections)
         self.assertEqual(len(found.detections), 2)
         reply = self.client.update_configuration({"detection.threshold": 1.0, "silence_warning": 7.0})
         self.assertEqual((reply["detection.threshold"], reply["silence_warning"]), (1, 7))
         self.assertEqual(rospy.get_param("/detector/detection/threshold"), 1)
         self.assertEqual(rospy.get_param("/detector/silence_warning"), 7)
-        found = detections.wait_for_stamp(source.send(support.cloud_message(synthetic.scene())))
+        found = support.answer(source, support.cloud_message(synthetic.scene()), detections)
         self.assertEqual(found.detections, [])
         detections.close()
 

@@ -15,7 +15,7 @@ DATA = os.environ["SKS_TEST_DATA"]
 CODEBOOK = os.path.join(DATA, "synthetic.sks")
 
 # Far longer than anything takes on an idle machine: tests wait for conditions, not for times.
-PATIENCE = 60.0
+PATIENCE = float(os.environ.get("SKS_TEST_PATIENCE", 60))
 
 
 def wait_for(condition, what, timeout=PATIENCE):
@@ -113,6 +113,17 @@ class CloudSource:
         self.wait_for_subscriber()
         self.publisher.publish(message)
         return message.header.stamp
+
+
+def answer(source, message, recorder):
+    """The answer to a cloud. It is sent again until it comes: who listens may have gone or not be there yet."""
+    def received():
+        source.send(message)
+        try:
+            return recorder.wait_for_stamp(message.header.stamp, 2)
+        except AssertionError:
+            return None
+    return wait_for(received, "an answer on " + recorder.topic)
 
 
 def position_of(pose):

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Time: the clock jumps back, clouds are old, clouds stay away."""
+import threading
+import unittest
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from rosgraph_msgs.msg import Clock
+
+import support
+import synthetic
+from sks_detector.msg import DetectionArray
+
+
+class SimulatedClock:
+    """Publishes /clock, as a bag does."""
+
+    def __init__(self, start):
+        self.now = start
+        self._publisher = rospy.Publisher("/clock", Clock, queue_size=10)
+        self._thread = threading.Thread(target=self._tick, daemon=True)
+        self._thread.start()
+
+    def _tick(self):
+        while not rospy.is_shutdown():
+            self.now += 0.01
+            self._publisher.publish(Clock(rospy.Time(self.now)))
+            threading.Event().wait(0.01)
+
+    def jump(self, to):
+        self.now = to
+        support.wait_for(lambda: abs(rospy.get_time() - to) < 50, "the jump")
+
+
+class ClockTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.clock = SimulatedClock(1000.0)
+        cls.source = support.CloudSource("/points")
+        support.wait_for(lambda: rospy.get_time() > 0, "the clock")
+
+    def setUp(self):
+        self.detections = support.Recorder("/detector/detections", DetectionArray)
+
+    def tearDown(self):
+        self.detections.close()
+
+    def node(self, **parameters):
+        return support.Node(parameters=dict(parameters, codebook=support.CODEBOOK))
+
+    def expect_answer(self):
+        answer = support.answer(self.source, support.cloud_message(synthetic.scene()), self.detections)
+        self.assertEqual(len(answer.detections), 2)
+
+    def test_goes_on_after_time_jumped_back(self):
+        with self.node(max_input_age=5.0) as node:
+            self.expect_answer()
+            for start in (500.0, 100.0):
+                self.clock.jump(start)
+                node.wait_for_output("time jumped back by", "are forgotten")
+                self.expect_answer()
+            self.assertTrue(node.alive())
+
+    def test_drops_old_clouds_and_says_so(self):
+        diagnostics = support.Recorder("/diagnostics", DiagnosticArray)
+        with self.node(max_input_age=5.0) as node:
+            self.expect_answer()
+            old = self.source.send(support.cloud_message(synthetic.scene(), stamp=rospy.Time.now() - rospy.Duration(9)))
+            node.wait_for_output("/points are dropped", "~max_input_age")
+            diagnostics.wait_for(lambda m: any("dropped by ~max_input_age: they are 9" in s.message for s in m.status))
+            self.expect_answer()
+            self.assertNotIn(old, [m.header.stamp for m in self.detections.messages])
+        diagnostics.close()
+
+    def test_warns_of_silence(self):
+        diagnostics = support.Recorder("/diagnostics", DiagnosticArray)
+        with self.node(silence_warning=0.5) as node:
+            node.wait_for_output("no cloud on /points for more than 0.5 s", "it has 1 publisher")
+            diagnostics.wait_for(
+                lambda m: any(s.name == "detector: Input" and "no cloud on /points" in s.message for s in m.status))
+            self.expect_answer()
+        diagnostics.close()
+
+
+if __name__ == "__main__":
+    rospy.init_node("clock_test")
+    rostest.rosrun("sks_detector", "clock", ClockTest)

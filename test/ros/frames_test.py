@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""~target_frame, ~sensor_frame and ~publish_tf."""
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+import tf2_msgs.msg
+import tf2_ros
+from geometry_msgs.msg import TransformStamped
+
+import support
+import synthetic
+from sks_detector.msg import DetectionArray, Status
+
+# The robot's base looks along x, the camera along z.
+T_BASE_CAMERA = np.array([[0, 0, 1, 0.1], [-1, 0, 0, 0.2], [0, -1, 0, 0.9], [0, 0, 0, 1.0]])
+
+
+def camera_in_base():
+    transform = TransformStamped()
+    transform.header.frame_id, transform.child_frame_id = "base_link", "camera"
+    transform.transform.translation.x, transform.transform.translation.y, transform.transform.translation.z = (
+        T_BASE_CAMERA[:3, 3])
+    rotation = transform.transform.rotation
+    rotation.x, rotation.y, rotation.z, rotation.w = -0.5, 0.5, -0.5, 0.5
+    return transform
+
+
+class FramesTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.broadcaster = tf2_ros.StaticTransformBroadcaster()
+        cls.broadcaster.sendTransform(camera_in_base())
+        cls.source = support.CloudSource("/points")
+
+    def setUp(self):
+        self.detections = support.Recorder("/detector/detections", DetectionArray)
+
+    def tearDown(self):
+        self.detections.close()
+
+    def node(self, **parameters):
+        return support.Node(parameters=dict({"codebook": support.CODEBOOK, "tf_timeout": 2.0}, **parameters))
+
+    def answer(self, points, frame="camera"):
+        return support.answer(self.source, support.cloud_message(points, frame), self.detections)
+
+    def expect_in_base(self, answer):
+        self.assertEqual(answer.header.frame_id, "base_link")
+        self.assertEqual(len(answer.detections), 2)
+        for detection in answer.detections:
+            position = synthetic.apply(T_BASE_CAMERA, synthetic.position(detection.object)[None])[0]
+            np.testing.assert_allclose(support.position_of(detection.box_center), position, atol=0.01)
+            T = T_BASE_CAMERA @ synthetic.model_pose(detection.object)
+            np.testing.assert_allclose(support.matrix_of(detection.pose.pose), T, atol=0.08)
+
+    def test_answers_in_the_target_frame(self):
+        for frame in ("base_link", "/base_link"):
+            with self.node(target_frame=frame):
+                self.expect_in_base(self.answer(synthetic.scene()))
+
+    def test_answers_empty_and_says_why_where_the_transform_is_missing(self):
+        with self.node(target_frame="nowhere", tf_timeout=0.1) as node:
+            status = support.Recorder("/detector/status", Status)
+            answer = self.answer(synthetic.scene())
+            self.assertEqual((answer.header.frame_id, answer.detections), ("nowhere", []))
+            status.wait_for(lambda s: "no transform from 'camera' to 'nowhere'" in s.last_error)
+            self.assertTrue(node.alive())
+            status.close()
+
+    def test_takes_the_place_of_the_camera_from_the_sensor_frame(self):
+        points = synthetic.scene()
+        in_base = synthetic.apply(T_BASE_CAMERA, points.reshape(-1, 3)).reshape(points.shape)
+        with self.node(sensor_frame="camera"):
+            self.expect_in_base(self.answer(in_base, "base_link"))
+
+    def test_broadcasts_detections_even_if_nobody_listens(self):
+        self.detections.close()
+        transforms = support.Recorder("/tf", tf2_msgs.msg.TFMessage)
+        twins = np.concatenate([synthetic.scene(("thing",), wall=False, shift=(dx, 0, 0)) for dx in (0, 0.19)])
+        with self.node(publish_tf=True):
+            cloud = support.cloud_message(twins.reshape(-1, 3))
+            message = support.wait_for(lambda: self.source.send(cloud) and next(
+                (m for m in transforms.messages if m.transforms[0].header.stamp == cloud.header.stamp), None), "/tf")
+            self.assertEqual({t.child_frame_id for t in message.transforms}, {"thing", "thing_2"})
+            found = sorted(t.transform.translation.x for t in message.transforms)
+            expected = sorted(synthetic.model_pose("thing", (dx, 0, 0))[0, 3] for dx in (0, 0.19))
+            np.testing.assert_allclose(found, expected, atol=0.05)
+        transforms.close()
+
+
+if __name__ == "__main__":
+    rospy.init_node("frames_test")
+    rostest.rosrun("sks_detector", "frames", FramesTest)
