@@ -2,7 +2,7 @@
 #include "ros/codebook_services.hpp"
 
 #include <algorithm>
-#include <utility>
+#include <memory>
 
 #include <sks_detector/codebook_edit.hpp>
 #include <sks_detector/codebook_file.hpp>
@@ -17,6 +17,13 @@ namespace {
 
 using sks::Error;
 using sks::ErrorCode;
+
+/// Null if nothing is left.
+std::shared_ptr<const sks::Codebook> remainder(const sks::Codebook& codebook, const std::string& object) {
+  const auto rest = sks::withoutObject(codebook, object);
+  if (rest) rest->checksum = sks::codebookChecksum(*rest);
+  return rest;
+}
 
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -67,21 +74,17 @@ void CodebookServices::removeObject(const RemoveObject::Request& request, Remove
     throw Error(ErrorCode::bad_usage,
                 "there is no object '" + request.object + "' in the codebook or among the captured views; " + hint);
   }
-  if (is_trained) response.words = removeFromCodebook(request.object);
+  // what may fail comes before what cannot be undone
+  const auto rest = is_trained ? remainder(detector->codebook(), request.object) : nullptr;
   response.views = std::uint32_t(context_.captured.remove(request.object));
+  if (is_trained) {
+    context_.slot.setCodebook(rest, "");
+    response.words = std::uint32_t(detector->codebook().words.size() - (rest ? rest->words.size() : 0));
+  }
   context_.updateStatus();
   response.message = "removed '" + request.object + "': " + counted(response.words, "codeword") + ", " +
                      counted(response.views, "captured view");
   if (is_trained) response.message += "; files of codebooks are left as they are";
-}
-
-std::uint32_t CodebookServices::removeFromCodebook(const std::string& object) {
-  const auto detector = context_.slot.detector();
-  const sks::Codebook& codebook = detector->codebook();
-  const auto rest = sks::withoutObject(codebook, object);
-  if (rest) rest->checksum = sks::codebookChecksum(*rest);
-  context_.slot.setCodebook(rest, "");
-  return std::uint32_t(codebook.words.size() - (rest ? rest->words.size() : 0));
 }
 
 void CodebookServices::info(const Info::Request&, Info::Response& response) {
