@@ -75,6 +75,17 @@ TEST(Tabletop, CountsSeveralLargestFirst) {
   EXPECT_NEAR(centerOf(cloud, tabletop.objects[2]).x(), -0.2f, 0.01f);
 }
 
+TEST(Tabletop, LeavesOutStrayPoints) {
+  const Cloud cloud =
+      seen({table(), standing({0.3f, 0.25f, 0.2f}, 0.15f, 0.9f), standing({0.02f, 0.03f, 0.02f}, -0.2f, 0.8f)});
+  TabletopSettings settings;
+  settings.min_points = 5;
+  settings.min_share = 0.05;
+  EXPECT_THAT(findTabletop(cloud, settings).objects, SizeIs(1));
+  settings.min_share = 0;
+  EXPECT_THAT(findTabletop(cloud, settings).objects, SizeIs(2));
+}
+
 TEST(Tabletop, LooksPastALargerWall) {
   const Placed wall = slab({0, -0.3f, 1.6f}, {2, 1.2f, 0.02f});
   const Cloud cloud = seen({wall, table(), standing({0.08f, 0.15f, 0.06f}, -0.1f, 0.8f)});

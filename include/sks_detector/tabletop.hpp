@@ -19,6 +19,7 @@ struct TabletopSettings {
   double max_extent = 0.6;        ///< what is wider is furniture or a wall, no object [m]
   double gap = 0.02;              ///< things nearer to each other than this are one object [m]
   int min_points = 50;            ///< of an object
+  double min_share = 0.01;        ///< of the largest object's points; what is smaller are stray points of the sensor
 };
 
 /// The dominant plane of a cloud and what stands on it.

@@ -55,6 +55,10 @@ public:
     }
     const auto larger = [](const Indices& a, const Indices& b) { return a.size() > b.size(); };
     std::stable_sort(objects.begin(), objects.end(), larger);
+    const auto stray = [&](const Indices& object) {
+      return double(object.size()) < settings_.min_share * double(objects.front().size());
+    };
+    objects.erase(std::find_if(objects.begin(), objects.end(), stray), objects.end());
     return objects;
   }
 
