@@ -18,7 +18,7 @@ if(TARGET sks)
   install(TARGETS sks RUNTIME DESTINATION ${sks_bin_dir})
 endif()
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${sks_include_dir} FILES_MATCHING PATTERN "*.hpp")
-install(DIRECTORY config DESTINATION ${sks_share_dir} FILES_MATCHING PATTERN "*.yaml")
+install(DIRECTORY config DESTINATION ${sks_share_dir} FILES_MATCHING PATTERN "*.yaml" PATTERN "*.rviz")
 #catkin_lint: ignore_once wrong_bin_install_destination
 install(PROGRAMS scripts/plot_evaluation.py DESTINATION ${sks_share_dir}/scripts)
 # The other scripts serve the checkout.
