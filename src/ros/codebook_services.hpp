@@ -23,8 +23,6 @@ public:
 private:
   /// A training would swap its codebook in over any other change.
   void refuseWhileTraining() const;
-  /// The number of codewords removed.
-  std::uint32_t removeFromCodebook(const std::string& object);
 
   ServiceContext& context_;
 };
