@@ -53,7 +53,7 @@ class RvizTest(unittest.TestCase):
         boxes = support.wait_for(lambda: [m for m in shown(synthetic.scene()) if m.ns == "boxes"], "boxes")
         colors = [(box.color.r, box.color.g, box.color.b) for box in boxes]
         self.assertEqual(len(set(colors)), 2)
-        for color in colors + [(1, 1, 0)]:  # the last is that of the keypoints
+        for color in colors + [(0, 160 / 255, 1)]:  # the last is that of the keypoints
             support.wait_for(lambda: shown(synthetic.scene()) and self.pixels_like(color) > 100, "pixels %s" % (color,),
                              120)
         support.wait_for(lambda: shown(synthetic.scene(names=())) and max(map(self.pixels_like, colors)) < 50,
