@@ -27,6 +27,7 @@ endif()
 add_library(${PROJECT_NAME}_ros SHARED ${ros_sources})
 add_dependencies(${PROJECT_NAME}_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 target_include_directories(${PROJECT_NAME}_ros PUBLIC src)
+#catkin_lint: ignore_once external_directory external_interface_path
 target_include_directories(${PROJECT_NAME}_ros SYSTEM PUBLIC
   ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
 target_link_libraries(${PROJECT_NAME}_ros PUBLIC sks_build_flags ${PROJECT_NAME}_core ${catkin_LIBRARIES})
@@ -37,6 +38,7 @@ set(sks_ros_libraries ${PROJECT_NAME}_ros)
 
 if(sks_camera)
   add_library(${PROJECT_NAME}_camera SHARED ${camera_sources})
+  #catkin_lint: ignore_once external_directory external_interface_path
   target_include_directories(${PROJECT_NAME}_camera SYSTEM PUBLIC ${OPENNI2_INCLUDE_DIR})
   target_link_libraries(${PROJECT_NAME}_camera PUBLIC ${PROJECT_NAME}_ros ${OPENNI2_LIBRARY})
   list(APPEND sks_ros_libraries ${PROJECT_NAME}_camera)

@@ -4,17 +4,16 @@
 # found; sets sks_ros to whether it is.
 set(sks_ros OFF)
 set(sks_message_dependencies)
-set(sks_ros_components
+# Optional, which catkin_lint does not know.
+#catkin_lint: ignore unconfigured_build_depend
+find_package(catkin QUIET COMPONENTS
   diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs message_generation nodelet pcl_ros pluginlib
   rosbag roscpp sensor_msgs std_msgs std_srvs tf2_eigen tf2_ros tf2_sensor_msgs visualization_msgs)
-if(SKS_CATKIN)
-  find_package(catkin QUIET COMPONENTS ${sks_ros_components})
-  if(catkin_FOUND)
-    set(sks_ros ON)
-  else()
-    message(STATUS "${PROJECT_NAME} is built without its ROS node, of which a dependency is missing: "
-      "scripts/install_dependencies installs it")
-  endif()
+if(catkin_FOUND)
+  set(sks_ros ON)
+else()
+  message(STATUS "${PROJECT_NAME} is built without its ROS node, of which a dependency is missing: "
+    "scripts/install_dependencies installs it")
 endif()
 if(sks_ros)
   add_message_files(FILES Detection.msg DetectionArray.msg Status.msg)
