@@ -4,8 +4,6 @@
 # found; sets sks_ros to whether it is.
 set(sks_ros OFF)
 set(sks_message_dependencies)
-# Optional, which catkin_lint does not know.
-#catkin_lint: ignore unconfigured_build_depend
 find_package(catkin QUIET COMPONENTS
   diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs message_generation nodelet pcl_ros pluginlib
   rosbag roscpp sensor_msgs std_msgs std_srvs tf2_eigen tf2_ros tf2_sensor_msgs visualization_msgs)
