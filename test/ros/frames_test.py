@@ -42,7 +42,7 @@ class FramesTest(unittest.TestCase):
         self.detections.close()
 
     def node(self, **parameters):
-        return support.Node(parameters=dict({"codebook": support.CODEBOOK, "tf_timeout": 2.0}, **parameters))
+        return support.Node(parameters=dict({"codebook": support.CODEBOOK, "tf_timeout": 30.0}, **parameters))
 
     def answer(self, points, frame="camera"):
         return support.answer(self.source, support.cloud_message(points, frame), self.detections)

@@ -75,7 +75,7 @@ class ReplayTest(unittest.TestCase):
 
     def replay(self, **arguments):
         """The clouds' headers, and the detections by stamp, of a replay to its end."""
-        self.end_of(launch(self.folder, record=self.found, **arguments))
+        self.end_of(launch(self.folder, record=self.found, delay=4, linger=6, **arguments))
         clouds, arrays = [], {}
         with rosbag.Bag(self.found) as bag:
             for topic, message, _ in bag.read_messages():

@@ -120,6 +120,7 @@ class CodebookServicesTest(services_support.ServicesTest):
 
     def test_detects_in_the_next_cloud_while_nobody_listens(self):
         self.succeed("enable", False)
+        support.wait_for(lambda: self.source.publisher.get_num_connections() == 0, "the end of the subscription")
         replies = []
         call = threading.Thread(target=lambda: replies.append(self.node.call("detect", PointCloud2(), 30)))
         call.start()

@@ -116,11 +116,15 @@ class CloudSource:
 
 
 def answer(source, message, recorder):
-    """The answer to a cloud. It is sent again until it comes: who listens may have gone or not be there yet."""
+    """The answer to a cloud. It is sent again until it comes, stamped anew: who listens may have gone, not be there yet, or
+    not know the time yet."""
+    stamps = []
+
     def received():
-        source.send(message)
+        message.header.stamp = rospy.Time.now()
+        stamps.append(source.send(message))
         try:
-            return recorder.wait_for_stamp(message.header.stamp, 2)
+            return recorder.wait_for(lambda m: m.header.stamp in stamps, timeout=2)
         except AssertionError:
             return None
     return wait_for(received, "an answer on " + recorder.topic)
