@@ -105,7 +105,7 @@ class ServicesTest(unittest.TestCase):
             yaml.safe_dump(dict({"name": os.path.splitext(name)[0], "units": "m", "training": training}, **fields), file)
         return path
 
-    def write_slow_dataset(self, name="slow.yaml", views=2000):
+    def write_slow_dataset(self, name="slow.yaml", views=1000):
         """One that takes many seconds with threads=1, cloud by cloud."""
         return self.write_dataset(name, [{"object": "thing", "cloud": "thing.pcd", "kind": "view"}] * views)
 

@@ -140,7 +140,7 @@ class TrainingServicesTest(services_support.ServicesTest):
         self.succeed("cancel_training")
         reply = call.result()
         self.assertFalse(reply.success)
-        self.assertRegex(reply.message, r"training was cancelled after \d+ of 2000")
+        self.assertRegex(reply.message, r"training was cancelled after \d+ of 1000")
         self.assertNotIn("cancelled.sks", os.listdir(self.node.codebooks))
         self.expect_old_codebook()
 

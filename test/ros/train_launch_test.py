@@ -22,7 +22,7 @@ class TrainLaunchTest(unittest.TestCase):
         return subprocess.run(
             ["roslaunch", "sks_detector", "train.launch", "keep:=false", "folder:=" + self.folder,
              "datasets:=" + support.DATA, "name:=trainer"] + list(arguments),
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=support.PATIENCE).stdout
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=2 * support.PATIENCE).stdout
 
     def test_trains_a_data_set_and_ends(self):
         printed = self.train("dataset:=synthetic.yaml", "output:=new.sks")
