@@ -36,17 +36,9 @@ public:
   /// Replaces `runs` by all that may hold points within `radius` of `center`; the distance test is the caller's.
   void findRuns(const Eigen::Vector3f& center, float radius, std::vector<Run>& runs) const;
 
-  /// Windows on the rows around a point, which slide as the points of a row are visited one after the other: no search.
-  struct Cursor {
-    std::uint32_t row = std::uint32_t(-1);
-    float radius = -1;
-    std::vector<Run> rows;     ///< the rows that are near enough
-    std::vector<Run> windows;  ///< the part of each that is near enough along x
-  };
-
-  /// findRuns() for point `i` of the grid; quick where the points are visited in order. The result is `cursor.windows`,
-  /// of which some may be empty.
-  void slideTo(std::size_t i, float radius, Cursor& cursor) const;
+  /// Replaces `rows` by all rows that may hold points within `radius` of any point in the row of point `i`. Points of a
+  /// row ascend in x. @return one past the last point of the row of `i`
+  std::uint32_t findRows(std::size_t i, float radius, std::vector<Run>& rows) const;
 
   /// Calls `f(index, squared distance)` for each point within `radius` of `center`, in order of the index.
   template <typename Function>

@@ -8,6 +8,24 @@
 #include "core/plane_fit.hpp"
 
 namespace sks {
+namespace {
+
+constexpr double cell_margin = 1.01;  // a cell a little larger than the radius has its neighbours in 3 x 3 rows
+
+/// Turns the normals of points `begin` to `end` - 1 towards the sensor.
+void faceSensor(Surface& surface, std::size_t begin, std::size_t end) {
+  const Eigen::Vector3f& o = surface.sensor_origin;
+  for (std::size_t i = begin; i < end; ++i) {
+    const float towards = surface.nx[i] * (o.x() - surface.x[i]) + surface.ny[i] * (o.y() - surface.y[i]) +
+                          surface.nz[i] * (o.z() - surface.z[i]);
+    const float side = towards < 0 ? -1.0f : 1.0f;
+    surface.nx[i] *= side;
+    surface.ny[i] *= side;
+    surface.nz[i] *= side;
+  }
+}
+
+}  // namespace
 
 void estimateNormals(Surface& surface, const SurfaceSettings& settings, Orientation orientation, int threads) {
   const std::size_t n = surface.size();
@@ -16,23 +34,18 @@ void estimateNormals(Surface& surface, const SurfaceSettings& settings, Orientat
   constexpr std::size_t chunk = 512;
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::size_t begin = 0; begin < n; begin += chunk) {
-    Eigen::Vector3f normals[chunk];
-    const std::size_t count = std::min(chunk, n - begin);
-    fitPlanesAtPoints(surface, begin, begin + count, float(settings.normal_radius), settings.normal_min_neighbors,
-                      normals);
-    for (std::size_t i = 0; i < count; ++i) {
-      const float side = normals[i].dot(surface.sensor_origin - surface.point(begin + i)) < 0 ? -1.0f : 1.0f;
-      surface.nx[begin + i] = side * normals[i].x();
-      surface.ny[begin + i] = side * normals[i].y();
-      surface.nz[begin + i] = side * normals[i].z();
-    }
+    const std::size_t end = std::min(begin + chunk, n);
+    fitPlanesAtPoints(surface, begin, end, float(settings.normal_radius), settings.normal_min_neighbors,
+                      {surface.nx.data(), surface.ny.data(), surface.nz.data()});
+    faceSensor(surface, begin, end);
   }
   if (orientation == Orientation::outward) orientOutward(surface, threads);
 }
 
 Surface prepareSurface(const Cloud& sanitized, const SurfaceSettings& settings, Orientation orientation, int threads) {
-  Surface surface = settings.resolution > 0 ? makeSurface(thin(sanitized, settings.resolution), settings.normal_radius)
-                                            : makeSurface(sanitized, settings.normal_radius);
+  const double cell = cell_margin * settings.normal_radius;
+  Surface surface =
+      settings.resolution > 0 ? makeSurface(thin(sanitized, settings.resolution), cell) : makeSurface(sanitized, cell);
   estimateNormals(surface, settings, orientation, threads);
   return surface;
 }

@@ -92,11 +92,9 @@ Eigen::Vector3f smallestEigenvector(const Eigen::Matrix3d& matrix) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix).eigenvectors().col(0).cast<float>();
 }
 
-namespace {
-
-/// Plane normal of the points in `runs` that lie within the radius.
 Eigen::Vector3f fitPlane(const PointGrid& grid, const Eigen::Vector3f& center, float radius, int min_neighbors,
-                         const std::vector<PointGrid::Run>& runs) {
+                         std::vector<PointGrid::Run>& runs) {
+  grid.findRuns(center, radius, runs);
   double m[10];
   HWY_DYNAMIC_DISPATCH(sumMoments)(grid, center.data(), radius, runs.data(), runs.size(), m);
   if (m[0] < min_neighbors) return Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
@@ -104,26 +102,6 @@ Eigen::Vector3f fitPlane(const PointGrid& grid, const Eigen::Vector3f& center, f
   Eigen::Matrix3d scatter;
   scatter << m[4], m[5], m[6], m[5], m[7], m[8], m[6], m[8], m[9];
   return smallestEigenvector(scatter / m[0] - mean * mean.transpose());
-}
-
-}  // namespace
-
-void fitPlanes(const PointGrid& grid, const Eigen::Vector3f* centers, std::size_t count, float radius,
-               int min_neighbors, Eigen::Vector3f* normals) {
-  std::vector<PointGrid::Run> runs;
-  for (std::size_t i = 0; i < count; ++i) {
-    grid.findRuns(centers[i], radius, runs);
-    normals[i] = fitPlane(grid, centers[i], radius, min_neighbors, runs);
-  }
-}
-
-void fitPlanesAtPoints(const PointGrid& grid, std::size_t begin, std::size_t end, float radius, int min_neighbors,
-                       Eigen::Vector3f* normals) {
-  PointGrid::Cursor cursor;
-  for (std::size_t i = begin; i < end; ++i) {
-    grid.slideTo(i, radius, cursor);
-    normals[i - begin] = fitPlane(grid, grid.point(i), radius, min_neighbors, cursor.windows);
-  }
 }
 
 }  // namespace sks

@@ -9,14 +9,20 @@
 
 namespace sks {
 
-/// Least-squares plane normal of the points within `radius` of each of `count` centres, not oriented; NaN where fewer
-/// than `min_neighbors` points lie there. SIMD with runtime dispatch; each result depends on its own centre alone.
-void fitPlanes(const PointGrid& grid, const Eigen::Vector3f* centers, std::size_t count, float radius,
-               int min_neighbors, Eigen::Vector3f* normals);
+/// Where to put one normal for each point of a grid.
+struct NormalArrays {
+  float *x, *y, *z;
+};
 
-/// The same at points `begin` to `end` - 1 of the grid itself.
+/// Least-squares plane normals, not oriented, of the points within `radius` of each of the grid's points `begin` to
+/// `end` - 1; NaN where fewer than `min_neighbors` points lie there. SIMD over points, runtime dispatch; the result at
+/// a point does not depend on `begin` and `end`.
 void fitPlanesAtPoints(const PointGrid& grid, std::size_t begin, std::size_t end, float radius, int min_neighbors,
-                       Eigen::Vector3f* normals);
+                       NormalArrays normals);
+
+/// The same at any place; `runs` is a buffer. SIMD over neighbours.
+Eigen::Vector3f fitPlane(const PointGrid& grid, const Eigen::Vector3f& center, float radius, int min_neighbors,
+                         std::vector<PointGrid::Run>& runs);
 
 /// Unit eigenvector of the smallest eigenvalue of a symmetric matrix (lower triangle read).
 Eigen::Vector3f smallestEigenvector(const Eigen::Matrix3d& matrix);

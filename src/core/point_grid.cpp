@@ -59,33 +59,18 @@ std::uint32_t PointGrid::rowOf(float py, float pz) const {
   return std::uint32_t(k) * std::uint32_t(rows_y_) + std::uint32_t(j);
 }
 
-void PointGrid::slideTo(std::size_t i, float radius, Cursor& cursor) const {
+std::uint32_t PointGrid::findRows(std::size_t i, float radius, std::vector<Run>& rows) const {
+  rows.clear();
   const std::uint32_t own = rowOf(y[i], z[i]);
-  const float reach = radius * (1 + 1e-3f);  // rounding must not lose a point at the rim
-  if (cursor.row != own || cursor.radius != radius) {
-    cursor.row = own;
-    cursor.radius = radius;
-    cursor.rows.clear();
-    const int j = int(own % std::uint32_t(rows_y_)), k = int(own / std::uint32_t(rows_y_));
-    const int reach_rows = int(reach / cell_) + 1;
-    for (int kk = std::max(k - reach_rows, 0); kk <= std::min(k + reach_rows, rows_z_ - 1); ++kk) {
-      for (int jj = std::max(j - reach_rows, 0); jj <= std::min(j + reach_rows, rows_y_ - 1); ++jj) {
-        const std::size_t r = std::size_t(kk) * rows_y_ + jj;
-        if (row_begin_[r] != row_begin_[r + 1]) cursor.rows.push_back({row_begin_[r], row_begin_[r + 1]});
-      }
-    }
-    cursor.windows.clear();
-    for (const Run& run : cursor.rows) {
-      const auto first = std::lower_bound(x.begin() + run.begin, x.begin() + run.end, x[i] - reach);
-      cursor.windows.push_back({std::uint32_t(first - x.begin()), std::uint32_t(first - x.begin())});
+  const int j = int(own % std::uint32_t(rows_y_)), k = int(own / std::uint32_t(rows_y_));
+  const int reach = int(radius * (1 + 1e-3f) / cell_) + 1;  // rounding must not lose a point at the rim
+  for (int kk = std::max(k - reach, 0); kk <= std::min(k + reach, rows_z_ - 1); ++kk) {
+    for (int jj = std::max(j - reach, 0); jj <= std::min(j + reach, rows_y_ - 1); ++jj) {
+      const std::size_t r = std::size_t(kk) * rows_y_ + jj;
+      if (row_begin_[r] != row_begin_[r + 1]) rows.push_back({row_begin_[r], row_begin_[r + 1]});
     }
   }
-  for (std::size_t r = 0; r < cursor.rows.size(); ++r) {
-    Run& window = cursor.windows[r];
-    while (window.begin < cursor.rows[r].end && x[window.begin] < x[i] - reach) ++window.begin;
-    window.end = std::max(window.end, window.begin);
-    while (window.end < cursor.rows[r].end && x[window.end] <= x[i] + reach) ++window.end;
-  }
+  return row_begin_[own + 1];
 }
 
 std::vector<Eigen::Vector3f> PointGrid::positions() const {

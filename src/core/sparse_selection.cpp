@@ -66,10 +66,10 @@ void measureCurvature(const Surface& surface, Keypoints& keypoints, const Keypoi
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::size_t begin = 0; begin < n; begin += chunk) {
     const std::size_t end = std::min(begin + chunk, n);
-    fitPlanes(surface, &keypoints.positions[begin], end - begin, float(surface_settings.normal_radius),
-              surface_settings.normal_min_neighbors, &keypoints.normals[begin]);
     std::vector<PointGrid::Run> runs;
     for (std::size_t i = begin; i < end; ++i) {
+      keypoints.normals[i] = fitPlane(surface, keypoints.positions[i], float(surface_settings.normal_radius),
+                                      surface_settings.normal_min_neighbors, runs);
       if (!keypoints.normals[i].allFinite()) continue;
       keypoints.curvature[i] =
           gaussianCurvature(surface, keypoints.positions[i], keypoints.normals[i], float(settings.grid_size), runs);
