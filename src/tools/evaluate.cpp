@@ -2,19 +2,15 @@
 #include <memory>
 
 #include <sks_detector/cloud_io.hpp>
-#include <sks_detector/codebook_file.hpp>
 #include <sks_detector/dataset.hpp>
 #include <sks_detector/detector.hpp>
-#include <sks_detector/error.hpp>
 #include <sks_detector/evaluation.hpp>
-#include <sks_detector/file.hpp>
-#include <sks_detector/trainer.hpp>
 
+#include "tools/codebook_options.hpp"
 #include "tools/command.hpp"
 #include "tools/evaluation_json.hpp"
 #include "tools/evaluation_plots.hpp"
 #include "tools/evaluation_table.hpp"
-#include "tools/mesh_options.hpp"
 #include "tools/method.hpp"
 #include "tools/progress_bar.hpp"
 
@@ -23,40 +19,25 @@ namespace {
 
 struct Options {
   std::string dataset;
-  std::string codebook;
-  std::string save_codebook;
   std::string method = "sks";
   std::string plot;
-  MeshViewOptions mesh_views;
+  CodebookOptions codebook;
   SettingsOptions settings;
   JsonOption json;
 };
 
-std::shared_ptr<const Codebook> trainCodebook(const Options& options, const DataSet& data_set, const Settings& settings,
-                                              const Progress& progress) {
-  if (data_set.training.empty()) {
-    throw Error(ErrorCode::bad_usage,
-                "'" + options.dataset + "' has no training clouds; give a codebook: --codebook FILE");
-  }
-  const std::vector<TrainingSample> samples = trainingSamples(data_set, options.mesh_views.sampler());
-  auto codebook = std::make_shared<Codebook>(train(samples, settings, data_set.name, progress));
-  if (!options.save_codebook.empty()) codebook->checksum = writeCodebook(options.save_codebook, *codebook);
-  return codebook;
-}
-
 void run(const Options& options) {
-  std::shared_ptr<const Codebook> codebook;
-  if (!options.codebook.empty()) codebook = readCodebook(options.codebook);
+  std::shared_ptr<const Codebook> codebook = options.codebook.read();
   Settings settings = codebook ? codebook->settings : Settings();
   applyMethod(options.method, options.settings, settings);
   const DataSet data_set = loadDataSet(options.dataset);
   for (const std::string& warning : data_set.warnings) warn(warning);
   options.json.check();  // what cannot be written is found before the work is done
-  if (!options.save_codebook.empty()) checkWritable(options.save_codebook);
+  options.codebook.check();
   if (!options.plot.empty()) preparePlots(options.plot);
 
   ProgressBar bar;
-  if (!codebook) codebook = trainCodebook(options, data_set, settings, bar.callback());
+  if (!codebook) codebook = options.codebook.train(data_set, settings, bar.callback());
   bar.clear();
   if (settings.descriptor.type == DescriptorType::automatic) settings.descriptor.type = codebook->descriptor_type;
   for (const std::string& object : untrainedObjects(data_set, codebook->objects)) {
@@ -83,15 +64,10 @@ void addEvaluate(CLI::App& app) {
   command->add_option("--dataset,-d", options->dataset, "data set file (YAML) with the ground truth")
       ->required()
       ->type_name("FILE");
-  CLI::Option* codebook =
-      command->add_option("--codebook,-b", options->codebook, "trained codebook (*.sks)")->type_name("FILE");
-  command->add_option("--save-codebook", options->save_codebook, "keep the codebook that was trained")
-      ->type_name("FILE")
-      ->excludes(codebook);
+  options->codebook.add(*command);
   command->add_option("--method,-m", options->method, methodHelp())
       ->type_name("NAME")
       ->check(CLI::IsMember(methodNames()));
-  options->mesh_views.add(*command);
   options->settings.add(*command);
   options->json.add(*command);
   command->add_option("--plot", options->plot, "draw precision-recall curves, thresholds, times and each scene")

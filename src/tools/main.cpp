@@ -37,6 +37,7 @@ int main(int argc, char** argv) {
   tools::addTrain(app);
   tools::addDetect(app);
   tools::addEvaluate(app);
+  tools::addClassify(app);
   tools::addSimulate(app);
   tools::addBag(app);
   tools::addInfo(app);

@@ -6,6 +6,15 @@
 #include "tools/share.hpp"
 
 namespace sks::tools {
+namespace {
+
+void useWholeGrid(KeypointSettings& settings) {
+  settings.detector = KeypointDetector::grid;
+  settings.selection = SelectionRule::rank;
+  settings.discard = 0;
+}
+
+}  // namespace
 
 std::vector<std::string> methodNames() {
   return {"sks", "sks-paper", "grid"};
@@ -19,11 +28,13 @@ std::string methodHelp() {
 void applyMethod(const std::string& method, const SettingsOptions& options, Settings& settings) {
   if (method == "sks-paper") loadSettings(sharePath("config/paper.yaml"), settings);
   options.apply(settings);
-  if (method == "grid") {
-    settings.keypoints.detector = KeypointDetector::grid;
-    settings.keypoints.selection = SelectionRule::rank;
-    settings.keypoints.discard = 0;
-  }
+  if (method == "grid") useWholeGrid(settings.keypoints);
+}
+
+void applyClassificationMethod(const std::string& method, const SettingsOptions& options, Settings& settings) {
+  if (method == "sks-paper") settings.keypoints.discard = 0.5;  // SKS-50
+  options.apply(settings);
+  if (method == "grid") useWholeGrid(settings.keypoints);
 }
 
 }  // namespace sks::tools

@@ -20,4 +20,8 @@ std::string methodHelp();
 /// @throws Error(bad_usage), Error(bad_file)
 void applyMethod(const std::string& method, const SettingsOptions& options, Settings& settings);
 
+/// The same for isolated objects: the published method then differs in its selection alone, since what it is published
+/// with suits scenes. @throws Error(bad_usage), Error(bad_file)
+void applyClassificationMethod(const std::string& method, const SettingsOptions& options, Settings& settings);
+
 }  // namespace sks::tools

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/scene_description.hpp"
+
+#include <sks_detector/error.hpp>
+#include <sks_detector/sanitize.hpp>
+
+#include "core/stopwatch.hpp"
+
+namespace sks {
+namespace {
+
+void checkColor(const Cloud& cloud, const Codebook& codebook) {
+  if (codebook.descriptor_type != DescriptorType::cshot || cloud.hasColor()) return;
+  throw Error(ErrorCode::incompatible,
+              "the codebook '" + codebook.name +
+                  "' describes colour (CSHOT), but the cloud has none: use a coloured cloud, or "
+                  "train with --set descriptor.type=shot");
+}
+
+Keypoints sceneKeypoints(const Surface& surface, const Settings& settings, int threads, StageCounts& counts) {
+  Keypoints keypoints = detectKeypoints(surface, settings.keypoints, threads);
+  counts.grid_keypoints = keypoints.size();
+  const bool selects = settings.keypoints.selection != SelectionRule::rank || settings.keypoints.discard > 0;
+  if (settings.keypoints.detector == KeypointDetector::grid && selects) {
+    measureCurvature(surface, keypoints, settings.keypoints, settings.surface, threads);
+    keypoints = selectKeypoints(keypoints, settings.keypoints);
+  }
+  counts.keypoints = keypoints.size();
+  return keypoints;
+}
+
+}  // namespace
+
+Settings settingsFor(const Codebook& codebook, Settings settings) {
+  validate(settings);
+  if (settings.descriptor.type == DescriptorType::automatic) settings.descriptor.type = codebook.descriptor_type;
+  std::string conflicts;
+  for (const std::string& key : bindingConflicts(codebook.settings, settings)) {
+    conflicts += (conflicts.empty() ? "" : ", ") + key + " = " + getSetting(codebook.settings, key) + " (not " +
+                 getSetting(settings, key) + ")";
+  }
+  if (!conflicts.empty()) {
+    throw Error(ErrorCode::incompatible, "the codebook '" + codebook.name + "' was trained with " + conflicts +
+                                             ": use the same values, or train again");
+  }
+  return settings;
+}
+
+SceneDescription describeScene(const Cloud& cloud, Orientation orientation, const Codebook& codebook,
+                               const Matcher& matcher, const Settings& settings, StageTimes& times,
+                               StageCounts& counts) {
+  checkColor(cloud, codebook);
+  const int threads = threadCount(settings);
+  SceneDescription scene;
+  Stopwatch stage;
+  SanitizeSettings sanitizing = settings.sanitize;
+  if (orientation == Orientation::outward) sanitizing.min_range = 0;  // a model's origin is no sensor
+  const Cloud sanitized = sanitize(cloud, sanitizing);
+  times.sanitize = stage.lap();
+
+  scene.surface = prepareSurface(sanitized, settings.surface, orientation, threads);
+  times.normals = stage.lap();
+
+  scene.keypoints = sceneKeypoints(scene.surface, settings, threads, counts);
+  times.keypoints = stage.lap();
+
+  scene.descriptors =
+      computeDescriptors(scene.surface, scene.keypoints, codebook.descriptor_type, settings.descriptor, threads);
+  times.descriptors = stage.lap();
+
+  scene.matches = matcher.match(scene.descriptors.values, threads);
+  times.matching = stage.lap();
+
+  scene.votes = castVotes(codebook, scene.matches, scene.descriptors, scene.keypoints);
+  times.voting = stage.lap();
+
+  counts.input_points = cloud.size();
+  counts.points = scene.surface.size();
+  counts.descriptors = scene.descriptors.keypoints.size();
+  counts.votes = scene.matches.size();
+  return scene;
+}
+
+}  // namespace sks

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The stages from a cloud to its votes, which all that works with a codebook has in common.
+#pragma once
+
+#include <vector>
+
+#include <sks_detector/cloud.hpp>
+#include <sks_detector/codebook.hpp>
+#include <sks_detector/descriptors.hpp>
+#include <sks_detector/detection.hpp>
+#include <sks_detector/keypoints.hpp>
+#include <sks_detector/matching.hpp>
+#include <sks_detector/settings.hpp>
+#include <sks_detector/surface.hpp>
+#include <sks_detector/voting.hpp>
+
+namespace sks {
+
+/// A scene, described and matched.
+struct SceneDescription {
+  Surface surface;
+  Keypoints keypoints;  ///< those that the selection kept
+  Descriptors descriptors;
+  std::vector<Match> matches;            ///< one for each descriptor
+  std::vector<std::vector<Vote>> votes;  ///< one Hough space per object
+};
+
+/// `settings` where they can be used with a codebook, with the descriptor type that `auto` stands for.
+/// @throws Error(bad_usage) for invalid settings, Error(incompatible) naming keys and values that differ from what the
+///         codebook was trained with
+Settings settingsFor(const Codebook& codebook, Settings settings);
+
+/// Sanitizes, prepares and selects keypoints, describes them, matches and votes; fills in times and counts of these.
+/// @param settings of settingsFor()
+/// @throws Error(bad_data) for an unusable cloud, Error(incompatible) for a cloud without colour with CSHOT
+SceneDescription describeScene(const Cloud& cloud, Orientation orientation, const Codebook& codebook,
+                               const Matcher& matcher, const Settings& settings, StageTimes& times,
+                               StageCounts& counts);
+
+}  // namespace sks
