@@ -8,6 +8,12 @@
 #include "core/value_text.hpp"
 
 namespace sks_detector {
+namespace {
+
+// The newest cloud wins here, not in the subscription: what is dropped there is not counted.
+constexpr std::uint32_t subscription_queue = 4;
+
+}  // namespace
 
 CloudInput::CloudInput(const ros::NodeHandle& private_handle)
     : private_handle_(private_handle), topic_(private_handle_.resolveName("points")) {}
@@ -110,8 +116,8 @@ void CloudInput::updateSubscription() {
     if (needed && !subscriber_) last_sign_of_life_ = Clock::now();
   }
   if (needed && !subscriber_) {
-    subscriber_ = private_handle_.subscribe<sensor_msgs::PointCloud2>("points", 1, &CloudInput::receive, this,
-                                                                      ros::TransportHints().tcpNoDelay());
+    subscriber_ = private_handle_.subscribe<sensor_msgs::PointCloud2>("points", subscription_queue, &CloudInput::receive,
+                                                                      this, ros::TransportHints().tcpNoDelay());
   } else if (!needed && subscriber_) {
     subscriber_.shutdown();
     subscriber_ = ros::Subscriber();
