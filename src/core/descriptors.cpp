@@ -29,9 +29,9 @@ bool describe(const Surface& surface, const Eigen::Vector3f& keypoint, Descripto
   if (work.neighborhood.size < std::size_t(settings.min_neighbors)) return false;
   if (!localReferenceFrame(work.neighborhood, radius, frame)) return false;
   work.support.locate(work.neighborhood, frame, radius);
-  addShapeHistogram(work.neighborhood, work.support, histogram);
+  shapeHistogram(work.neighborhood, work.support, histogram);
   if (type == DescriptorType::cshot) {
-    addColorHistogram(surface, work.neighborhood, work.support, core_share * radius, histogram + shot_size);
+    colorHistogram(surface, work.neighborhood, work.support, core_share * radius, histogram + shot_size);
   }
   return normalize(histogram, descriptorSize(type));
 }

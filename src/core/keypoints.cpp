@@ -7,7 +7,7 @@ namespace sks {
 
 Keypoints gridKeypoints(const Surface& surface, double grid_size) {
   Keypoints keypoints;
-  keypoints.positions = groupByVoxel(surface.positions(), grid_size).centroids;
+  keypoints.positions = voxelCentroids(surface, grid_size);
   return keypoints;
 }
 

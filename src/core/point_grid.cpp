@@ -9,6 +9,16 @@ namespace {
 
 constexpr double max_rows = 4e6;  // 16 MB of row table, whatever the extent of the points
 
+/// std::lower_bound without branches that depend on the values: no guess of the processor can be wrong.
+std::uint32_t firstNotBelow(const float* x, std::uint32_t begin, std::uint32_t end, float value) {
+  for (std::uint32_t count = end - begin; count > 0;) {
+    const std::uint32_t half = (count + 1) / 2;
+    begin += half & -std::uint32_t(x[begin + half - 1] < value);
+    count -= half;
+  }
+  return begin;
+}
+
 }  // namespace
 
 PointGrid::PointGrid(const std::vector<Eigen::Vector3f>& points, double cell) {
@@ -102,9 +112,9 @@ void PointGrid::findRuns(const Eigen::Vector3f& center, float radius, std::vecto
       const float rest = reach - dy * dy - dz * dz;
       if (rest < 0) continue;
       const float half = std::sqrt(rest) + slack;
-      const auto first = std::lower_bound(x.begin() + begin, x.begin() + end, center.x() - half);
-      const auto last = std::upper_bound(first, x.begin() + end, center.x() + half);
-      if (first != last) runs.push_back({std::uint32_t(first - x.begin()), std::uint32_t(last - x.begin())});
+      const std::uint32_t first = firstNotBelow(x.data(), begin, end, center.x() - half);
+      const std::uint32_t last = firstNotBelow(x.data(), first, end, center.x() + half);
+      if (first != last) runs.push_back({first, last});
     }
   }
 }

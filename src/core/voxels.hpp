@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include <sks_detector/point_grid.hpp>
+
 namespace sks {
 
 /// Points grouped by the cubes of a grid that is anchored at the frame's origin; cubes in (z, y, x) order.
@@ -17,5 +19,8 @@ struct VoxelGroups {
 
 /// @throws Error(bad_data) if the extent of the points is more than two million cubes along an axis
 VoxelGroups groupByVoxel(const std::vector<Eigen::Vector3f>& points, double edge);
+
+/// The centroids alone.
+std::vector<Eigen::Vector3f> voxelCentroids(const PointGrid& points, double edge);
 
 }  // namespace sks
