@@ -27,7 +27,8 @@ public:
   /// @param points finite positions [m]
   /// @param cell edge of a row [m], best at about the smallest search radius; enlarged where the extent of the points
   ///        would make too many rows
-  PointGrid(const std::vector<Eigen::Vector3f>& points, double cell);
+  /// @param threads for sorting; the result does not depend on them
+  PointGrid(const std::vector<Eigen::Vector3f>& points, double cell, int threads = 1);
 
   std::size_t size() const { return source.size(); }
   Eigen::Vector3f point(std::size_t i) const { return {x[i], y[i], z[i]}; }
@@ -60,13 +61,25 @@ public:
   /// Entries past the last point that may be read.
   static constexpr std::size_t simd_padding = 16;
 
-private:
-  std::uint32_t rowOf(float py, float pz) const;
+  /// Where the rows lie, and their points.
+  struct Rows {
+    float origin_y = 0, origin_z = 0;  ///< lower corner of row (0, 0) [m]
+    float cell = 1;                    ///< edge [m]
+    int count_y = 0, count_z = 0;
+    std::vector<std::uint32_t> begin;  ///< first point of each row (y fastest), and one past the last
+    std::vector<float> pivots;  ///< x of every pivot_spacing-th point, by which places in a row are found; padded
 
-  float origin_y_ = 0, origin_z_ = 0;  // lower corner of row (0, 0)
-  float cell_ = 1;
-  int rows_y_ = 0, rows_z_ = 0;
-  std::vector<std::uint32_t> row_begin_;  // first point of each row, and one past the last
+    static constexpr std::uint32_t pivot_spacing = 16;
+
+    std::uint32_t at(float y, float z) const {
+      const int j = std::min(int((y - origin_y) / cell), count_y - 1);
+      const int k = std::min(int((z - origin_z) / cell), count_z - 1);
+      return std::uint32_t(k) * std::uint32_t(count_y) + std::uint32_t(j);
+    }
+  };
+
+private:
+  Rows rows_;
 };
 
 }  // namespace sks

@@ -33,7 +33,7 @@ struct Surface : PointGrid {
 
 /// Sorts the points of a sanitized cloud and converts their colours; normals are left empty (see estimateNormals()).
 /// @param cell edge of the rows of the neighbour search [m]; best at about the smallest search radius
-Surface makeSurface(const Cloud& cloud, double cell);
+Surface makeSurface(const Cloud& cloud, double cell, int threads = 1);
 
 /// Estimates and orients the normal at every point. Deterministic for any number of threads.
 void estimateNormals(Surface& surface, const SurfaceSettings& settings, Orientation orientation, int threads);

@@ -44,8 +44,8 @@ void estimateNormals(Surface& surface, const SurfaceSettings& settings, Orientat
 
 Surface prepareSurface(const Cloud& sanitized, const SurfaceSettings& settings, Orientation orientation, int threads) {
   const double cell = cell_margin * settings.normal_radius;
-  Surface surface =
-      settings.resolution > 0 ? makeSurface(thin(sanitized, settings.resolution), cell) : makeSurface(sanitized, cell);
+  Surface surface = settings.resolution > 0 ? makeSurface(thin(sanitized, settings.resolution), cell, threads)
+                                            : makeSurface(sanitized, cell, threads);
   estimateNormals(surface, settings, orientation, threads);
   return surface;
 }

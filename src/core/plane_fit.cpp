@@ -93,8 +93,7 @@ Eigen::Vector3f smallestEigenvector(const Eigen::Matrix3d& matrix) {
 }
 
 Eigen::Vector3f fitPlane(const PointGrid& grid, const Eigen::Vector3f& center, float radius, int min_neighbors,
-                         std::vector<PointGrid::Run>& runs) {
-  grid.findRuns(center, radius, runs);
+                         const std::vector<PointGrid::Run>& runs) {
   double m[10];
   HWY_DYNAMIC_DISPATCH(sumMoments)(grid, center.data(), radius, runs.data(), runs.size(), m);
   if (m[0] < min_neighbors) return Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());

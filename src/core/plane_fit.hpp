@@ -20,9 +20,9 @@ struct NormalArrays {
 void fitPlanesAtPoints(const PointGrid& grid, std::size_t begin, std::size_t end, float radius, int min_neighbors,
                        NormalArrays normals);
 
-/// The same at any place; `runs` is a buffer. SIMD over neighbours.
+/// The same at any place, with the runs of its neighbours from PointGrid::findRuns(). SIMD over neighbours.
 Eigen::Vector3f fitPlane(const PointGrid& grid, const Eigen::Vector3f& center, float radius, int min_neighbors,
-                         std::vector<PointGrid::Run>& runs);
+                         const std::vector<PointGrid::Run>& runs);
 
 /// Unit eigenvector of the smallest eigenvalue of a symmetric matrix (lower triangle read).
 Eigen::Vector3f smallestEigenvector(const Eigen::Matrix3d& matrix);

@@ -9,114 +9,130 @@ namespace {
 
 constexpr double max_rows = 4e6;  // 16 MB of row table, whatever the extent of the points
 
-/// std::lower_bound without branches that depend on the values: no guess of the processor can be wrong.
-std::uint32_t firstNotBelow(const float* x, std::uint32_t begin, std::uint32_t end, float value) {
-  for (std::uint32_t count = end - begin; count > 0;) {
-    const std::uint32_t half = (count + 1) / 2;
-    begin += half & -std::uint32_t(x[begin + half - 1] < value);
-    count -= half;
-  }
-  return begin;
-}
-
-}  // namespace
-
-PointGrid::PointGrid(const std::vector<Eigen::Vector3f>& points, double cell) {
-  const std::size_t n = points.size();
+PointGrid::Rows rowsAround(const std::vector<Eigen::Vector3f>& points, double cell) {
   Eigen::Vector3f low = Eigen::Vector3f::Constant(std::numeric_limits<float>::max()), high = -low;
   for (const auto& p : points) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
-  if (n == 0) low = high = Eigen::Vector3f::Zero();
+  if (points.empty()) low = high = Eigen::Vector3f::Zero();
   const Eigen::Vector2d extent = (high - low).tail<2>().cast<double>();
   while ((extent.x() / cell + 1) * (extent.y() / cell + 1) > max_rows) cell *= 2;
 
-  cell_ = float(cell);
-  origin_y_ = low.y();
-  origin_z_ = low.z();
-  rows_y_ = int(extent.x() / cell) + 1;
-  rows_z_ = int(extent.y() / cell) + 1;
+  PointGrid::Rows rows;
+  rows.cell = float(cell);
+  rows.origin_y = low.y();
+  rows.origin_z = low.z();
+  rows.count_y = int(extent.x() / cell) + 1;
+  rows.count_z = int(extent.y() / cell) + 1;
+  return rows;
+}
 
-  // Counting sort by row, then by x within each row; ties keep their order.
-  row_begin_.assign(std::size_t(rows_y_) * rows_z_ + 1, 0);
-  std::vector<std::uint32_t> row(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    row[i] = rowOf(points[i].y(), points[i].z());
-    ++row_begin_[row[i] + 1];
-  }
-  std::partial_sum(row_begin_.begin(), row_begin_.end(), row_begin_.begin());
-  source.resize(n);
-  std::vector<std::uint32_t> next(row_begin_.begin(), row_begin_.end() - 1);
-  for (std::size_t i = 0; i < n; ++i) source[next[row[i]]++] = std::uint32_t(i);
-  for (std::size_t r = 0; r + 1 < row_begin_.size(); ++r) {
-    std::stable_sort(source.begin() + row_begin_[r], source.begin() + row_begin_[r + 1],
-                     [&](std::uint32_t a, std::uint32_t b) { return points[a].x() < points[b].x(); });
-  }
+/// A point on its way into order.
+struct Entry {
+  float x;
+  std::uint32_t source;
+  std::uint32_t row;
+};
 
-  const float infinity = std::numeric_limits<float>::infinity();
-  for (auto* axis : {&x, &y, &z}) axis->assign(n + simd_padding, infinity);
+/// Turns the sizes that stand at [bucket + 1] into where each bucket begins.
+void accumulate(std::vector<std::uint32_t>& begin) {
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+}
+
+/// Points roughly by x: by buckets of equal width, in their order within each.
+std::vector<Entry> roughlyByX(const std::vector<Eigen::Vector3f>& points, const PointGrid::Rows& rows, int threads) {
+  constexpr std::uint32_t buckets = 4096;
+  const std::size_t n = points.size();
+  float low = std::numeric_limits<float>::max(), high = -low;
+  for (const auto& p : points) {
+    low = std::min(low, p.x());
+    high = std::max(high, p.x());
+  }
+  const float per_width = high > low ? float(buckets) / (high - low) : 0.0f;
+  const auto bucketOf = [&](float x) { return std::min(std::uint32_t((x - low) * per_width), buckets - 1); };
+
+  std::vector<Entry> entries(n), sorted(n);
+#pragma omp parallel for schedule(static) num_threads(threads)
   for (std::size_t i = 0; i < n; ++i) {
-    x[i] = points[source[i]].x();
-    y[i] = points[source[i]].y();
-    z[i] = points[source[i]].z();
+    entries[i] = {points[i].x(), std::uint32_t(i), rows.at(points[i].y(), points[i].z())};
+  }
+  std::vector<std::uint32_t> next(buckets + 1, 0);
+  for (const Entry& entry : entries) ++next[bucketOf(entry.x) + 1];
+  accumulate(next);
+  for (const Entry& entry : entries) sorted[next[bucketOf(entry.x)]++] = entry;
+  return sorted;
+}
+
+/// Entries by row, those of a row in their order; fills in rows.begin.
+std::vector<Entry> groupByRow(const std::vector<Entry>& entries, PointGrid::Rows& rows) {
+  rows.begin.assign(std::size_t(rows.count_y) * rows.count_z + 1, 0);
+  for (const Entry& entry : entries) ++rows.begin[entry.row + 1];
+  accumulate(rows.begin);
+  // Each row's begin moves on as the row fills, to where the next row begins; then all move back by one row.
+  std::vector<Entry> grouped(entries.size());
+  for (const Entry& entry : entries) grouped[rows.begin[entry.row]++] = entry;
+  std::copy_backward(rows.begin.begin(), rows.begin.end() - 1, rows.begin.end());
+  rows.begin[0] = 0;
+  return grouped;
+}
+
+/// Sorts by x; equal ones keep their order. Quick for entries that are nearly in order, as all are but where far
+/// outliers make the buckets of roughlyByX() wide.
+void sortByX(Entry* begin, Entry* end) {
+  std::ptrdiff_t patience = 64 * (end - begin);
+  for (Entry* i = begin; i < end; ++i) {
+    const Entry entry = *i;
+    Entry* to = i;
+    for (; to > begin && (to - 1)->x > entry.x; --to) *to = *(to - 1);
+    *to = entry;
+    patience -= i - to;
+    if (patience < 0) return std::stable_sort(begin, end, [](const Entry& a, const Entry& b) { return a.x < b.x; });
   }
 }
 
-std::uint32_t PointGrid::rowOf(float py, float pz) const {
-  const int j = std::min(int((py - origin_y_) / cell_), rows_y_ - 1);
-  const int k = std::min(int((pz - origin_z_) / cell_), rows_z_ - 1);
-  return std::uint32_t(k) * std::uint32_t(rows_y_) + std::uint32_t(j);
+}  // namespace
+
+PointGrid::PointGrid(const std::vector<Eigen::Vector3f>& points, double cell, int threads)
+    : rows_(rowsAround(points, cell)) {
+  const std::size_t n = points.size();
+  std::vector<Entry> entries = groupByRow(roughlyByX(points, rows_, threads), rows_);
+  source.resize(n);
+  for (auto* axis : {&x, &y, &z}) axis->resize(n + simd_padding);
+  rows_.pivots.assign(n / Rows::pivot_spacing + 1 + simd_padding, std::numeric_limits<float>::infinity());
+#pragma omp parallel for schedule(dynamic, 256) num_threads(threads)
+  for (std::size_t r = 0; r < rows_.begin.size() - 1; ++r) {
+    sortByX(entries.data() + rows_.begin[r], entries.data() + rows_.begin[r + 1]);
+    for (std::uint32_t i = rows_.begin[r]; i < rows_.begin[r + 1]; ++i) {
+      const Eigen::Vector3f& p = points[entries[i].source];
+      source[i] = entries[i].source;
+      x[i] = p.x();
+      y[i] = p.y();
+      z[i] = p.z();
+      if (i % Rows::pivot_spacing == 0) rows_.pivots[i / Rows::pivot_spacing] = p.x();
+    }
+  }
+  for (auto* axis : {&x, &y, &z}) std::fill(axis->begin() + n, axis->end(), std::numeric_limits<float>::infinity());
 }
 
 std::uint32_t PointGrid::findRows(std::size_t i, float radius, std::vector<Run>& rows) const {
   rows.clear();
-  const std::uint32_t own = rowOf(y[i], z[i]);
-  const int j = int(own % std::uint32_t(rows_y_)), k = int(own / std::uint32_t(rows_y_));
-  const int reach = int(radius * (1 + 1e-3f) / cell_) + 1;  // rounding must not lose a point at the rim
-  for (int kk = std::max(k - reach, 0); kk <= std::min(k + reach, rows_z_ - 1); ++kk) {
-    for (int jj = std::max(j - reach, 0); jj <= std::min(j + reach, rows_y_ - 1); ++jj) {
-      const std::size_t r = std::size_t(kk) * rows_y_ + jj;
-      if (row_begin_[r] != row_begin_[r + 1]) rows.push_back({row_begin_[r], row_begin_[r + 1]});
+  const std::uint32_t own = rows_.at(y[i], z[i]);
+  const int j = int(own % std::uint32_t(rows_.count_y)), k = int(own / std::uint32_t(rows_.count_y));
+  const int reach = int(radius * (1 + 1e-3f) / rows_.cell) + 1;  // rounding must not lose a point at the rim
+  for (int kk = std::max(k - reach, 0); kk <= std::min(k + reach, rows_.count_z - 1); ++kk) {
+    for (int jj = std::max(j - reach, 0); jj <= std::min(j + reach, rows_.count_y - 1); ++jj) {
+      const std::size_t r = std::size_t(kk) * rows_.count_y + jj;
+      if (rows_.begin[r] != rows_.begin[r + 1]) rows.push_back({rows_.begin[r], rows_.begin[r + 1]});
     }
   }
-  return row_begin_[own + 1];
+  return rows_.begin[own + 1];
 }
 
 std::vector<Eigen::Vector3f> PointGrid::positions() const {
   std::vector<Eigen::Vector3f> points(size());
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = point(i);
   return points;
-}
-
-void PointGrid::findRuns(const Eigen::Vector3f& center, float radius, std::vector<Run>& runs) const {
-  runs.clear();
-  if (size() == 0) return;
-  const float inverse = 1.0f / cell_;
-  const float gap_y = center.y() - origin_y_, gap_z = center.z() - origin_z_;
-  const auto row = [&](float gap, int count) { return int(std::clamp(gap * inverse, 0.0f, float(count - 1))); };
-  const int y0 = row(gap_y - radius, rows_y_), y1 = row(gap_y + radius, rows_y_);
-  const int z0 = row(gap_z - radius, rows_z_), z1 = row(gap_z + radius, rows_z_);
-  const auto outside = [&](float gap, int index) {  // distance from the centre to the slab of row `index`
-    return std::max({index * cell_ - gap, gap - (index + 1) * cell_, 0.0f});
-  };
-  const float slack = radius * 1e-3f;  // rounding must not lose a point at the rim
-  const float reach = (radius + slack) * (radius + slack);
-  for (int k = z0; k <= z1; ++k) {
-    const float dz = outside(gap_z, k);
-    for (int j = y0; j <= y1; ++j) {
-      const std::size_t r = std::size_t(k) * rows_y_ + j;
-      const std::uint32_t begin = row_begin_[r], end = row_begin_[r + 1];
-      if (begin == end) continue;
-      const float dy = outside(gap_y, j);
-      const float rest = reach - dy * dy - dz * dz;
-      if (rest < 0) continue;
-      const float half = std::sqrt(rest) + slack;
-      const std::uint32_t first = firstNotBelow(x.data(), begin, end, center.x() - half);
-      const std::uint32_t last = firstNotBelow(x.data(), first, end, center.x() + half);
-      if (first != last) runs.push_back({first, last});
-    }
-  }
 }
 
 }  // namespace sks

@@ -13,42 +13,56 @@ namespace {
 
 constexpr double implausible_distance = 50.0;  // [m]; beyond every RGB-D sensor, below any object in millimetres
 
-/// Set of positions by their exact value; open addressing, sized once.
+/// Set of positions by their exact value; open addressing, sized once. A slot holds a part of the hash, so that other
+/// positions are hardly ever read.
 class PositionSet {
 public:
-  explicit PositionSet(std::size_t expected) {
-    std::size_t capacity = 16;
-    while (capacity < 2 * expected) capacity *= 2;
-    slots_.assign(capacity, 0);
+  PositionSet(const std::vector<Eigen::Vector3f>& points, std::size_t expected) : points_(points) {
+    while ((std::size_t(1) << bits_) < 2 * expected) ++bits_;
+    slots_.assign(std::size_t(1) << bits_, {0, 0});
   }
 
-  /// False if an equal position is in the set already.
-  bool insert(const std::vector<Eigen::Vector3f>& points, std::uint32_t index) {
-    const Eigen::Vector3f p = points[index] + Eigen::Vector3f::Zero();  // -0 becomes +0
+  std::uint64_t hash(std::uint32_t index) const {
+    const Eigen::Vector3f p = points_[index] + Eigen::Vector3f::Zero();  // -0 becomes +0
     std::uint32_t bits[3];
     std::memcpy(bits, p.data(), sizeof bits);
-    std::uint64_t hash =
+    const std::uint64_t mixed =
         bits[0] * 0x9E3779B97F4A7C15ull ^ bits[1] * 0xC2B2AE3D27D4EB4Full ^ bits[2] * 0x165667B19E3779F9ull;
-    hash ^= hash >> 29;
-    const std::size_t mask = slots_.size() - 1;
-    for (std::size_t slot = hash & mask;; slot = (slot + 1) & mask) {
-      if (slots_[slot] == 0) {
-        slots_[slot] = index + 1;
+    return mixed * 0x9E3779B97F4A7C15ull;
+  }
+
+  /// Has the place of a hash read from memory, for insert() soon after.
+  void prefetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash >> (64 - bits_)]); }
+
+  /// False if an equal position is in the set already.
+  bool insert(std::uint32_t index, std::uint64_t hash) {
+    const std::uint32_t tag = std::uint32_t(hash);
+    for (std::size_t slot = hash >> (64 - bits_);; slot = (slot + 1) & (slots_.size() - 1)) {
+      if (slots_[slot].next_index == 0) {
+        slots_[slot] = {index + 1, tag};
         return true;
       }
-      if (points[slots_[slot] - 1] == points[index]) return false;
+      if (slots_[slot].tag == tag && points_[slots_[slot].next_index - 1] == points_[index]) return false;
     }
   }
 
 private:
-  std::vector<std::uint32_t> slots_;  // index + 1; 0 is free
+  struct Slot {
+    std::uint32_t next_index;  // index + 1; 0 is free
+    std::uint32_t tag;
+  };
+  const std::vector<Eigen::Vector3f>& points_;
+  int bits_ = 4;
+  std::vector<Slot> slots_;
 };
 
+/// Of up to some thousand points, spread evenly over the cloud.
 double medianDistance(const Cloud& cloud) {
+  constexpr std::size_t enough = 4096;
+  const std::size_t step = std::max<std::size_t>(1, cloud.size() / enough);
   std::vector<float> distances;
-  distances.reserve(cloud.size());
-  for (const auto& p : cloud.points) {
-    if (p.allFinite()) distances.push_back((p - cloud.sensor_origin).norm());
+  for (std::size_t i = 0; i < cloud.size(); i += step) {
+    if (cloud.points[i].allFinite()) distances.push_back((cloud.points[i] - cloud.sensor_origin).norm());
   }
   if (distances.empty()) return 0;
   auto middle = distances.begin() + distances.size() / 2;
@@ -73,6 +87,47 @@ void checkShape(const Cloud& cloud) {
   if (!cloud.sensor_origin.allFinite()) refuse("the cloud's sensor origin (viewpoint) is not finite");
 }
 
+/// Indices of the finite points within range and crop box; counts the others.
+std::vector<std::uint32_t> usablePoints(const Cloud& cloud, const SanitizeSettings& settings, SanitizeReport& counts) {
+  const Eigen::Array3f low(settings.crop_min_x, settings.crop_min_y, settings.crop_min_z);
+  const Eigen::Array3f high(settings.crop_max_x, settings.crop_max_y, settings.crop_max_z);
+  const double nearest = settings.min_range * settings.min_range, farthest = settings.max_range * settings.max_range;
+  std::vector<std::uint32_t> usable;
+  usable.reserve(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3f& p = cloud.points[i];
+    if (!p.allFinite()) {
+      ++counts.invalid;
+      continue;
+    }
+    const double squared = (p - cloud.sensor_origin).cast<double>().squaredNorm();
+    const bool inside = !settings.crop || ((p.array() >= low).all() && (p.array() <= high).all());
+    if (squared < nearest || squared > farthest || !inside) {
+      ++counts.out_of_range;
+    } else {
+      usable.push_back(std::uint32_t(i));
+    }
+  }
+  return usable;
+}
+
+/// Those of the points that are not at exactly the place of an earlier one.
+std::vector<std::uint32_t> distinctPoints(const Cloud& cloud, const std::vector<std::uint32_t>& indices) {
+  constexpr std::size_t block = 32;
+  PositionSet seen(cloud.points, indices.size());
+  std::vector<std::uint32_t> distinct;
+  distinct.reserve(indices.size());
+  std::uint64_t hashes[block];
+  for (std::size_t begin = 0; begin < indices.size(); begin += block) {
+    const std::size_t count = std::min(block, indices.size() - begin);
+    for (std::size_t i = 0; i < count; ++i) seen.prefetch(hashes[i] = seen.hash(indices[begin + i]));
+    for (std::size_t i = 0; i < count; ++i) {
+      if (seen.insert(indices[begin + i], hashes[i])) distinct.push_back(indices[begin + i]);
+    }
+  }
+  return distinct;
+}
+
 }  // namespace
 
 Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeReport* report) {
@@ -87,28 +142,16 @@ Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeRep
 
   SanitizeReport counts;
   counts.input = cloud.size();
-  PositionSet seen(settings.remove_duplicates ? cloud.size() : 0);
-  const Eigen::Array3f low(settings.crop_min_x, settings.crop_min_y, settings.crop_min_z);
-  const Eigen::Array3f high(settings.crop_max_x, settings.crop_max_y, settings.crop_max_z);
+  const auto usable = usablePoints(cloud, settings, counts);
+  const auto distinct = settings.remove_duplicates ? distinctPoints(cloud, usable) : usable;
+  counts.duplicates = usable.size() - distinct.size();
   Cloud kept;
   kept.sensor_origin = cloud.sensor_origin;
-  kept.points.reserve(cloud.size());
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Eigen::Vector3f& p = cloud.points[i];
-    if (!p.allFinite()) {
-      ++counts.invalid;
-      continue;
-    }
-    const double range = (p - cloud.sensor_origin).norm();
-    const bool inside = !settings.crop || ((p.array() >= low).all() && (p.array() <= high).all());
-    if (range < settings.min_range || range > settings.max_range || !inside) {
-      ++counts.out_of_range;
-    } else if (settings.remove_duplicates && !seen.insert(cloud.points, std::uint32_t(i))) {
-      ++counts.duplicates;
-    } else {
-      kept.points.push_back(p);
-      if (cloud.hasColor()) kept.colors.push_back(cloud.colors[i]);
-    }
+  kept.points.resize(distinct.size());
+  for (std::size_t i = 0; i < distinct.size(); ++i) kept.points[i] = cloud.points[distinct[i]];
+  if (cloud.hasColor()) {
+    kept.colors.resize(distinct.size());
+    for (std::size_t i = 0; i < distinct.size(); ++i) kept.colors[i] = cloud.colors[distinct[i]];
   }
   counts.kept = kept.size();
   kept.width = std::uint32_t(kept.size());

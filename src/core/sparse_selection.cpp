@@ -6,34 +6,12 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/Geometry>
-
+#include "core/local_curvature.hpp"
 #include "core/otsu.hpp"
 #include "core/plane_fit.hpp"
 
 namespace sks {
 namespace {
-
-/// Determinant of the covariance of the neighbours' normals in the tangent plane of `normal`: kappa_1 kappa_2.
-float gaussianCurvature(const Surface& surface, const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
-                        float radius, std::vector<PointGrid::Run>& runs) {
-  const Eigen::Vector3f u = normal.unitOrthogonal(), v = normal.cross(u);
-  double n = 0, su = 0, sv = 0, suu = 0, suv = 0, svv = 0;
-  surface.forEachNeighbor(position, radius, runs, [&](std::uint32_t i, float) {
-    const Eigen::Vector3f neighbor = surface.normal(i);
-    const double a = neighbor.dot(u), b = neighbor.dot(v);
-    if (std::isnan(a)) return;
-    n += 1;
-    su += a;
-    sv += b;
-    suu += a * a;
-    suv += a * b;
-    svv += b * b;
-  });
-  if (n < 3) return 0;
-  const double uu = suu / n - su * su / (n * n), vv = svv / n - sv * sv / (n * n), uv = suv / n - su * sv / (n * n);
-  return float(std::max(0.0, uu * vv - uv * uv));
-}
 
 /// Spreads equal curvatures over the scene: a fixed one-to-one scramble of the index.
 std::uint32_t scramble(std::uint32_t index) {
@@ -62,17 +40,19 @@ void measureCurvature(const Surface& surface, Keypoints& keypoints, const Keypoi
   const std::size_t n = keypoints.size();
   keypoints.normals.resize(n);
   keypoints.curvature.assign(n, 0.0f);
+  const float normal_radius = float(surface_settings.normal_radius), local_radius = float(settings.grid_size);
   constexpr std::size_t chunk = 64;
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::size_t begin = 0; begin < n; begin += chunk) {
     const std::size_t end = std::min(begin + chunk, n);
     std::vector<PointGrid::Run> runs;
     for (std::size_t i = begin; i < end; ++i) {
-      keypoints.normals[i] = fitPlane(surface, keypoints.positions[i], float(surface_settings.normal_radius),
-                                      surface_settings.normal_min_neighbors, runs);
+      const Eigen::Vector3f& position = keypoints.positions[i];
+      surface.findRuns(position, normal_radius, runs);
+      keypoints.normals[i] = fitPlane(surface, position, normal_radius, surface_settings.normal_min_neighbors, runs);
       if (!keypoints.normals[i].allFinite()) continue;
-      keypoints.curvature[i] =
-          gaussianCurvature(surface, keypoints.positions[i], keypoints.normals[i], float(settings.grid_size), runs);
+      surface.findRuns(position, local_radius, runs);
+      keypoints.curvature[i] = gaussianCurvature(surface, position, keypoints.normals[i], local_radius, runs);
     }
   }
 }

@@ -8,11 +8,12 @@
 
 namespace sks {
 
-Surface makeSurface(const Cloud& cloud, double cell) {
-  Surface surface(cloud.points, cell);
+Surface makeSurface(const Cloud& cloud, double cell, int threads) {
+  Surface surface(cloud.points, cell, threads);
   surface.sensor_origin = cloud.sensor_origin;
   if (cloud.hasColor()) {
     surface.color.resize(surface.size());
+#pragma omp parallel for schedule(static) num_threads(threads)
     for (std::size_t i = 0; i < surface.size(); ++i) surface.color[i] = toScaledLab(cloud.colors[surface.source[i]]);
   }
   return surface;
