@@ -11,48 +11,17 @@
 
 #include "core/bound_cascade.hpp"
 #include "error_of.hpp"
+#include "histograms.hpp"
 
+using sks::test::histogram;
+using sks::test::histograms;
+using sks::test::matrix;
+using sks::test::plainChiSquared;
+using sks::test::Rows;
+using sks::test::uniform;
 using testing::HasSubstr;
 
 namespace {
-
-using Rows = std::vector<std::vector<float>>;
-
-float uniform(std::mt19937& random) {
-  return float(random() >> 8) / float(1 << 24);
-}
-
-std::vector<float> histogram(std::mt19937& random, std::size_t size, double filled = 0.3) {
-  std::vector<float> bins(size, 0.0f);
-  double squares = 0;
-  for (float& bin : bins) {
-    if (uniform(random) < filled) bin = uniform(random) * uniform(random);
-    squares += double(bin) * bin;
-  }
-  for (float& bin : bins) bin /= float(std::sqrt(std::max(squares, 1e-12)));
-  return bins;
-}
-
-Rows histograms(std::size_t count, std::size_t size, std::uint32_t seed, double filled = 0.3) {
-  std::mt19937 random(seed);
-  Rows rows(count);
-  for (auto& row : rows) row = histogram(random, size, filled);
-  return rows;
-}
-
-sks::DescriptorMatrix matrix(const Rows& rows, std::size_t cols) {
-  std::vector<float> values;
-  for (const auto& row : rows) values.insert(values.end(), row.begin(), row.end());
-  return sks::DescriptorMatrix(values, cols);
-}
-
-double plainChiSquared(const std::vector<float>& a, const std::vector<float>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    if (a[i] + b[i] > 0) sum += (double(a[i]) - b[i]) * (double(a[i]) - b[i]) / (double(a[i]) + b[i]);
-  }
-  return sum;
-}
 
 /// Every match is the first of the nearest words of a plain loop in double precision.
 void expectExact(const Rows& words, const Rows& queries, std::size_t size) {

@@ -8,8 +8,7 @@
 namespace sks {
 namespace {
 
-constexpr std::size_t sample_pairs = 192;  // a multiple of `lanes`
-constexpr std::size_t lanes = 16;          // sums kept apart, for the compiler to vectorize
+constexpr std::size_t sample_pairs = 6 * row_multiple;
 
 /// Greedy agglomeration of bins, on sampled pairs of words.
 class Agglomeration {
@@ -74,15 +73,7 @@ Agglomeration::Agglomeration(const DescriptorMatrix& words)
 
 float Agglomeration::cost(std::size_t i, std::size_t j) const {
   const Group &p = groups_[i], &q = groups_[j];
-  float sums[lanes] = {};
-  for (std::size_t s = 0; s < sample_pairs; s += lanes) {
-    for (std::size_t k = 0; k < lanes; ++k) {
-      sums[k] += p.term[s + k] + q.term[s + k] - chiTerm(p.a[s + k] + q.a[s + k], p.b[s + k] + q.b[s + k]);
-    }
-  }
-  float total = 0;
-  for (const float sum : sums) total += sum;
-  return total;
+  return mergingCost({p.a.data(), p.b.data(), p.term.data()}, {q.a.data(), q.b.data(), q.term.data()}, sample_pairs);
 }
 
 void Agglomeration::findPartner(std::size_t i) {

@@ -19,7 +19,7 @@ struct BinMerge {
   std::size_t size = 0;  ///< number of groups
 
   /// `size` rounded up to whole SIMD blocks.
-  std::size_t padded() const { return (size + block_words - 1) / block_words * block_words; }
+  std::size_t padded() const { return (size + row_multiple - 1) / row_multiple * row_multiple; }
 
   /// Writes the sums of a descriptor, and zeros up to `padded()`.
   void apply(const float* descriptor, float* sums) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/chi_squared.hpp"
 
+#include <hwy/cache_control.h>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/chi_squared.cpp"
 #include <hwy/foreach_target.h>
@@ -13,47 +15,14 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float smallest_sum = 1e-30f;  // keeps 0 / 0 out; the numerator is 0 then
-constexpr float below_truth = 0.9995f;  // outweighs the error of the approximate reciprocal, 2^-11 at most
 
-/// (a-b)^2 / (a+b) added to `sum`, with the approximate reciprocal.
-template <class V>
-HWY_INLINE V addTerm(V a, V b, V tiny, V sum) {
-  const auto difference = hn::Sub(a, b);
-  const auto reciprocal = hn::ApproximateReciprocal(hn::Max(hn::Add(a, b), tiny));
-  return hn::MulAdd(hn::Mul(difference, difference), reciprocal, sum);
-}
-
-void chiSquaredBlocksImpl(const float* query, std::size_t bins, const float* table, std::size_t blocks,
-                          float* distances) {
-  const hn::CappedTag<float, block_words> d;
-  const std::size_t lanes = hn::Lanes(d);
-  const auto tiny = hn::Set(d, smallest_sum);
-  const auto below = hn::Set(d, below_truth);
-  for (std::size_t block = 0; block < blocks; ++block) {
-    for (std::size_t part = 0; part < block_words; part += lanes) {
-      const float* column = table + block * bins * block_words + part;
-      auto sum = hn::Zero(d);
-      for (std::size_t bin = 0; bin < bins; ++bin, column += block_words) {
-        sum = addTerm(hn::Set(d, query[bin]), hn::LoadU(d, column), tiny, sum);
-      }
-      hn::StoreU(hn::Mul(sum, below), d, distances + block * block_words + part);
-    }
-  }
-}
-
-void chiSquaredRowsImpl(const float* query, std::size_t bins, const float* table, const std::uint32_t* rows,
-                        std::size_t count, float* distances) {
-  const hn::CappedTag<float, block_words> d;
-  const std::size_t lanes = hn::Lanes(d);
-  const auto tiny = hn::Set(d, smallest_sum);
-  for (std::size_t i = 0; i < count; ++i) {
-    const float* row = table + rows[i] * bins;
-    auto sum = hn::Zero(d);
-    for (std::size_t bin = 0; bin < bins; bin += lanes) {
-      sum = addTerm(hn::LoadU(d, query + bin), hn::LoadU(d, row + bin), tiny, sum);
-    }
-    distances[i] = below_truth * hn::GetLane(hn::SumOfLanes(d, sum));
-  }
+/// (a-b)^2 / (a+b). The approximate reciprocal and one Newton step take less time than a division.
+template <class D, class V>
+HWY_INLINE V term(D d, V a, V b) {
+  const auto difference = hn::Sub(a, b), both = hn::Max(hn::Add(a, b), hn::Set(d, smallest_sum));
+  const auto guess = hn::ApproximateReciprocal(both);
+  const auto reciprocal = hn::Mul(guess, hn::NegMulAdd(guess, both, hn::Set(d, 2.0f)));
+  return hn::Mul(hn::Mul(difference, difference), reciprocal);
 }
 
 std::size_t indexOfSmallestImpl(const float* values, std::size_t count) {
@@ -81,7 +50,9 @@ std::size_t selectUpToImpl(float limit, const float* values, std::size_t count, 
   std::size_t selected = 0, i = 0;
   for (; i + lanes <= count; i += lanes) {
     const auto low = hn::RebindMask(du, hn::Le(hn::LoadU(d, values + i), highest));
-    selected += hn::CompressStore(hn::Iota(du, std::uint32_t(i)), low, du, indices + selected);
+    if (hn::AllFalse(du, low)) continue;
+    hn::StoreU(hn::Compress(hn::Iota(du, std::uint32_t(i)), low), du, indices + selected);
+    selected += hn::CountTrue(du, low);
   }
   for (; i < count; ++i) {
     if (values[i] <= limit) indices[selected++] = std::uint32_t(i);
@@ -92,20 +63,52 @@ std::size_t selectUpToImpl(float limit, const float* values, std::size_t count, 
 float chiSquaredFastImpl(const float* a, const float* b, std::size_t size) {
   const hn::ScalableTag<float> d;
   const std::size_t lanes = hn::Lanes(d);
-  const auto tiny = hn::Set(d, smallest_sum);
-  const auto term = [&](auto x, auto y) {
-    const auto difference = hn::Sub(x, y);
-    return hn::Div(hn::Mul(difference, difference), hn::Max(hn::Add(x, y), tiny));
-  };
-  auto sum = hn::Zero(d);
+  const auto at = [&](std::size_t i) { return term(d, hn::LoadU(d, a + i), hn::LoadU(d, b + i)); };
+  auto sum0 = hn::Zero(d), sum1 = sum0;
   std::size_t i = 0;
-  for (; i + lanes <= size; i += lanes) sum = hn::Add(sum, term(hn::LoadU(d, a + i), hn::LoadU(d, b + i)));
-  float total = hn::GetLane(hn::SumOfLanes(d, sum));
+  for (; i + 2 * lanes <= size; i += 2 * lanes) {
+    sum0 = hn::Add(sum0, at(i));
+    sum1 = hn::Add(sum1, at(i + lanes));
+  }
+  for (; i + lanes <= size; i += lanes) sum0 = hn::Add(sum0, at(i));
+  float total = hn::GetLane(hn::SumOfLanes(d, hn::Add(sum0, sum1)));
   for (; i < size; ++i) {
     const float difference = a[i] - b[i], both = a[i] + b[i];
     if (both > 0) total += difference * difference / both;
   }
   return total;
+}
+
+void chiSquaredRowsImpl(const float* query, std::size_t bins, const std::uint16_t* table, const std::uint32_t* rows,
+                        std::size_t count, float* distances) {
+  const hn::CappedTag<float, row_multiple> d;
+  const hn::Rebind<std::uint32_t, decltype(d)> d_whole;
+  const hn::Rebind<std::uint16_t, decltype(d)> d_half;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i + 4 < count) {
+      for (std::size_t bin = 0; bin < bins; bin += 32) hwy::Prefetch(table + rows[i + 4] * bins + bin);
+    }
+    const std::uint16_t* row = table + rows[i] * bins;
+    auto sum = hn::Zero(d);
+    for (std::size_t bin = 0; bin < bins; bin += lanes) {
+      const auto values = hn::ShiftLeft<16>(hn::PromoteTo(d_whole, hn::LoadU(d_half, row + bin)));
+      sum = hn::Add(sum, term(d, hn::LoadU(d, query + bin), hn::BitCast(d, values)));
+    }
+    distances[i] = hn::GetLane(hn::SumOfLanes(d, sum));
+  }
+}
+
+float mergingCostImpl(const PairTerms& p, const PairTerms& q, std::size_t count) {
+  const hn::CappedTag<float, row_multiple> d;
+  auto sum = hn::Zero(d);
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto apart = hn::Add(hn::LoadU(d, p.terms + i), hn::LoadU(d, q.terms + i));
+    const auto a = hn::Add(hn::LoadU(d, p.a + i), hn::LoadU(d, q.a + i));
+    const auto b = hn::Add(hn::LoadU(d, p.b + i), hn::LoadU(d, q.b + i));
+    sum = hn::Add(sum, hn::Sub(apart, term(d, a, b)));
+  }
+  return hn::GetLane(hn::SumOfLanes(d, sum));
 }
 
 }  // namespace HWY_NAMESPACE
@@ -115,20 +118,11 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace sks {
 
-HWY_EXPORT(chiSquaredBlocksImpl);
-HWY_EXPORT(chiSquaredRowsImpl);
 HWY_EXPORT(indexOfSmallestImpl);
 HWY_EXPORT(selectUpToImpl);
 HWY_EXPORT(chiSquaredFastImpl);
-
-void chiSquaredBlocks(const float* query, std::size_t bins, const float* table, std::size_t blocks, float* distances) {
-  HWY_DYNAMIC_DISPATCH(chiSquaredBlocksImpl)(query, bins, table, blocks, distances);
-}
-
-void chiSquaredRows(const float* query, std::size_t bins, const float* table, const std::uint32_t* rows,
-                    std::size_t count, float* distances) {
-  HWY_DYNAMIC_DISPATCH(chiSquaredRowsImpl)(query, bins, table, rows, count, distances);
-}
+HWY_EXPORT(chiSquaredRowsImpl);
+HWY_EXPORT(mergingCostImpl);
 
 std::size_t indexOfSmallest(const float* values, std::size_t count) {
   return HWY_DYNAMIC_DISPATCH(indexOfSmallestImpl)(values, count);
@@ -140,6 +134,15 @@ std::size_t selectUpTo(float limit, const float* values, std::size_t count, std:
 
 float chiSquaredFast(const float* a, const float* b, std::size_t size) {
   return HWY_DYNAMIC_DISPATCH(chiSquaredFastImpl)(a, b, size);
+}
+
+void chiSquaredRows(const float* query, std::size_t bins, const std::uint16_t* table, const std::uint32_t* rows,
+                    std::size_t count, float* distances) {
+  HWY_DYNAMIC_DISPATCH(chiSquaredRowsImpl)(query, bins, table, rows, count, distances);
+}
+
+float mergingCost(const PairTerms& p, const PairTerms& q, std::size_t count) {
+  return HWY_DYNAMIC_DISPATCH(mergingCostImpl)(p, q, count);
 }
 
 }  // namespace sks

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sks_detector/matching.hpp>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -37,14 +38,12 @@ std::vector<Match> Matcher::match(const DescriptorMatrix& queries, int threads) 
                                              std::to_string(words.cols()));
   }
   std::vector<Match> matches(queries.rows());
-#pragma omp parallel num_threads(threads)
-  {
-    NearestWord::Workspace work;
-#pragma omp for schedule(dynamic, 8)
-    for (std::size_t i = 0; i < queries.rows(); ++i) {
-      const auto [word, distance] = index_->find(queries.row(i), work);
-      matches[i] = {std::uint32_t(i), word, float(distance)};
-    }
+  const std::size_t batches = (queries.rows() + NearestWord::batch - 1) / NearestWord::batch;
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::size_t i = 0; i < batches; ++i) {
+    static thread_local NearestWord::Workspace work;  // kept from frame to frame
+    const std::size_t first = i * NearestWord::batch;
+    index_->find(queries, first, std::min(NearestWord::batch, queries.rows() - first), &matches[first], work);
   }
   return matches;
 }

@@ -8,13 +8,14 @@
 #include <string>
 
 #include <sks_detector/error.hpp>
-#include <sks_detector/matching.hpp>
+
+#include "core/chi_squared.hpp"
 
 namespace sks {
 namespace {
 
-constexpr float rounding = 1e-4f;  // above the relative error of every single precision distance and bound
-const std::vector<std::size_t> level_sizes{16, 48, 128};  // merged bins; measured: each leaves about a tenth
+constexpr float rounding = 1e-4f;        // above the relative error of single precision distances
+constexpr std::size_t tile_blocks = 64;  // whose codes stay in the cache while a batch of queries passes
 
 void checkHistograms(const DescriptorMatrix& words) {
   for (std::size_t i = 0; i < words.rows() * words.cols(); ++i) {
@@ -24,90 +25,112 @@ void checkHistograms(const DescriptorMatrix& words) {
   }
 }
 
+/// The highest bound of a word that may be nearest.
+float highestBound(const NearestWord::Search& search) {
+  return search.best * (1 + rounding) + search.query.slack;
+}
+
+void dropAbove(float highest, NearestWord::Search& search) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < search.slots.size(); ++i) {
+    if (search.bounds[i] > highest) continue;
+    search.slots[kept] = search.slots[i];
+    search.bounds[kept++] = search.bounds[i];
+  }
+  search.slots.resize(kept);
+  search.bounds.resize(kept);
+}
+
 }  // namespace
 
 NearestWord::NearestWord(DescriptorMatrix words) : words_(std::move(words)) {
   checkHistograms(words_);
   if (words_.rows() == 0) return;
-  levels_ = learnBoundCascade(words_, level_sizes);
-  for (std::size_t level = 1; level < levels_.size(); ++level) {
-    const std::size_t stride = levels_[level].padded();
-    std::vector<float> rows(words_.rows() * stride);
-    for (std::size_t i = 0; i < words_.rows(); ++i) levels_[level].apply(words_.row(i), &rows[i * stride]);
-    finer_.push_back(std::move(rows));
-  }
-  const std::size_t size = levels_[0].size, blocks = (words_.rows() + block_words - 1) / block_words;
-  coarse_.resize(blocks * block_words * size);
-  std::vector<float> sums(levels_[0].padded());
-  for (std::size_t slot = 0; slot < blocks * block_words; ++slot) {
-    levels_[0].apply(words_.row(std::min(slot, words_.rows() - 1)), sums.data());
-    float* block = &coarse_[slot / block_words * block_words * size + slot % block_words];
-    for (std::size_t k = 0; k < size; ++k) block[k * block_words] = sums[k];
-  }
+  order_.resize(words_.rows());
+  std::iota(order_.begin(), order_.end(), 0u);
+  codes_ = WordCodes(words_, order_);
+  merged_ = MergedWords(words_, order_);
 }
 
-float NearestWord::distanceTo(const float* query, std::uint32_t word) const {
-  return chiSquaredFast(query, words_.row(word), words_.cols());
+float NearestWord::distanceTo(const Search& search, std::uint32_t slot) const {
+  return chiSquaredFast(search.histogram, words_.row(order_[slot]), words_.cols());
 }
 
-void NearestWord::boundCandidates(std::size_t level, Workspace& work) const {
-  work.bounds.resize(work.candidates.size());
-  chiSquaredRows(work.query[level].data(), levels_[level].padded(), finer_[level - 1].data(), work.candidates.data(),
-                 work.candidates.size(), work.bounds.data());
-}
-
-std::pair<std::uint32_t, double> NearestWord::find(const float* query, Workspace& work) const {
-  work.query.resize(levels_.size());
-  for (std::size_t level = 0; level < levels_.size(); ++level) {
-    work.query[level].resize(levels_[level].padded());
-    levels_[level].apply(query, work.query[level].data());
+void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* const* searches, std::size_t count,
+                        Workspace& work) const {
+  const std::size_t words = blocks * block_words;
+  std::array<const CodedVector*, queries_at_once> queries;
+  std::array<float*, queries_at_once> bounds;
+  for (std::size_t q = 0; q < queries_at_once; ++q) {
+    queries[q] = &searches[std::min(q, count - 1)]->query.vector;
+    bounds[q] = &work.bounds[q * tile_blocks * block_words];
   }
-  work.coarse.resize(coarse_.size() / levels_[0].size);
-  work.candidates.resize(words_.rows() + block_words);
-  work.selected.resize(words_.rows() + block_words);
-  chiSquaredBlocks(work.query[0].data(), levels_[0].size, coarse_.data(), work.coarse.size() / block_words,
-                   work.coarse.data());
-
-  // The word of the lowest bound is likely to be near: its distance rules most others out.
-  float best = distanceTo(query, std::uint32_t(indexOfSmallest(work.coarse.data(), words_.rows())));
-  work.candidates.resize(selectUpTo(best * (1 + rounding), work.coarse.data(), words_.rows(), work.candidates.data()));
-  for (std::size_t level = 1; level < levels_.size(); ++level) {
-    boundCandidates(level, work);
-    const std::size_t likely = indexOfSmallest(work.bounds.data(), work.bounds.size());
-    best = std::min(best, distanceTo(query, work.candidates[likely]));
-    const std::size_t kept =
-        selectUpTo(best * (1 + rounding), work.bounds.data(), work.bounds.size(), work.selected.data());
-    for (std::size_t i = 0; i < kept; ++i) {
-      work.candidates[i] = work.candidates[work.selected[i]];
-      work.bounds[i] = work.bounds[work.selected[i]];
+  codeDistances(queries, codes_.table(), first_block, blocks, bounds);
+  for (std::size_t q = 0; q < count; ++q) {
+    Search& search = *searches[q];
+    // The word of the lowest bound is likely to be near: its distance rules most others out.
+    const std::size_t likely = indexOfSmallest(bounds[q], words);
+    if (bounds[q][likely] < search.lowest_bound) {
+      search.lowest_bound = bounds[q][likely];
+      search.best = std::min(search.best, distanceTo(search, std::uint32_t(first_block * block_words + likely)));
     }
-    work.candidates.resize(kept);
-    work.bounds.resize(kept);
+    const std::size_t kept = selectUpTo(highestBound(search), bounds[q], words, work.selected.data());
+    for (std::size_t i = 0; i < kept; ++i) {
+      search.slots.push_back(std::uint32_t(first_block * block_words + work.selected[i]));
+      search.bounds.push_back(bounds[q][work.selected[i]]);
+    }
   }
+}
 
-  // Full distances in ascending order of the bound, until no bound is below the best.
-  auto& order = work.selected;
-  order.resize(work.candidates.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return std::make_pair(work.bounds[a], a) < std::make_pair(work.bounds[b], b);
-  });
-  std::size_t evaluated = 0;
-  for (; evaluated < order.size() && work.bounds[order[evaluated]] <= best * (1 + rounding); ++evaluated) {
-    float& distance = work.bounds[order[evaluated]];
-    distance = distanceTo(query, work.candidates[order[evaluated]]);
-    best = std::min(best, distance);
+Match NearestWord::nearest(Search& search, Workspace& work) const {
+  dropAbove(highestBound(search), search);
+  merged_.merge(search.histogram, work.merged);
+  merged_.distances(work.merged, search.slots, search.bounds);
+  if (!search.slots.empty()) {
+    const std::size_t likely = indexOfSmallest(search.bounds.data(), search.bounds.size());
+    search.best = std::min(search.best, distanceTo(search, search.slots[likely]));
   }
-
+  dropAbove(merged_.highestWithin(search.best * (1 + rounding)), search);
+  for (std::size_t i = 0; i < search.slots.size(); ++i) {
+    search.bounds[i] = distanceTo(search, search.slots[i]);
+    search.best = std::min(search.best, search.bounds[i]);
+  }
   // Between near ties double precision decides.
-  std::pair<std::uint32_t, double> nearest{0, std::numeric_limits<double>::infinity()};
-  for (std::size_t i = 0; i < evaluated; ++i) {
-    if (work.bounds[order[i]] > best * (1 + rounding)) continue;
-    const std::uint32_t word = work.candidates[order[i]];
-    const double distance = chiSquared(query, words_.row(word), words_.cols());
-    if (distance < nearest.second || (distance == nearest.second && word < nearest.first)) nearest = {word, distance};
+  dropAbove(search.best * (1 + rounding), search);
+  std::pair<double, std::uint32_t> nearest(std::numeric_limits<double>::infinity(), 0);
+  for (const std::uint32_t slot : search.slots) {
+    const std::uint32_t word = order_[slot];
+    nearest = std::min(nearest, {chiSquared(search.histogram, words_.row(word), words_.cols()), word});
   }
-  return nearest;
+  return {0, nearest.second, float(nearest.first)};
+}
+
+void NearestWord::find(const DescriptorMatrix& queries, std::size_t first, std::size_t count, Match* matches,
+                       Workspace& work) const {
+  work.searches.resize(std::max(work.searches.size(), count));
+  work.bounds.resize(queries_at_once * tile_blocks * block_words);
+  work.selected.resize(tile_blocks * block_words + selection_room);
+  for (std::size_t i = 0; i < count; ++i) {
+    Search& search = work.searches[i];
+    search.histogram = queries.row(first + i);
+    codes_.encode(search.histogram, work.projection, search.query);
+    search.lowest_bound = search.best = std::numeric_limits<float>::infinity();
+    search.slots.clear();
+    search.bounds.clear();
+  }
+  const std::size_t blocks = codes_.table().blocks();
+  for (std::size_t block = 0; block < blocks; block += tile_blocks) {
+    for (std::size_t i = 0; i < count; i += queries_at_once) {
+      std::array<Search*, queries_at_once> group;
+      const std::size_t size = std::min(queries_at_once, count - i);
+      for (std::size_t q = 0; q < size; ++q) group[q] = &work.searches[i + q];
+      visit(block, std::min(tile_blocks, blocks - block), group.data(), size, work);
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    matches[i] = nearest(work.searches[i], work);
+    matches[i].descriptor = std::uint32_t(first + i);
+  }
 }
 
 }  // namespace sks

@@ -2,26 +2,36 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
-#include <sks_detector/descriptors.hpp>
+#include <sks_detector/matching.hpp>
 
-#include "core/bound_cascade.hpp"
+#include "core/merged_words.hpp"
+#include "core/word_codes.hpp"
 
 namespace sks {
 
-/// Exact search for the codeword that is nearest under chi squared: coarse lower bounds of all words, finer ones of
+/// Exact search for the codewords that are nearest under chi squared: coarse lower bounds of all words, finer ones of
 /// those that can still win, full distances of the few that are left.
 class NearestWord {
 public:
+  /// The search of one query.
+  struct Search {
+    const float* histogram;
+    WordCodes::CodedQuery query;
+    float lowest_bound;
+    float best;                        // distance of any word so far
+    std::vector<std::uint32_t> slots;  // words that may be nearest
+    std::vector<float> bounds;         // of their distances
+  };
+
   /// Buffers of one thread.
   struct Workspace {
-    std::vector<std::vector<float>> query;  // merged by each level
-    std::vector<float> coarse;              // bounds of all words
-    std::vector<std::uint32_t> candidates;  // words that may still be nearest
-    std::vector<float> bounds;              // of the candidates
-    std::vector<std::uint32_t> selected;    // places in `candidates`
+    HellingerAxes::Projection projection;
+    std::vector<Search> searches;
+    std::vector<float> bounds;            // of a tile of words, of several queries
+    std::vector<std::uint32_t> selected;  // places in `bounds`
+    std::vector<float> merged;            // bins of one query
   };
 
   /// @throws Error(bad_data) naming word and bin for a value that is negative or not finite
@@ -29,17 +39,23 @@ public:
 
   const DescriptorMatrix& words() const { return words_; }
 
-  /// Word and distance; the first of equally near words. There must be words.
-  std::pair<std::uint32_t, double> find(const float* query, Workspace& work) const;
+  /// Queries that are best searched together.
+  static constexpr std::size_t batch = 32;
+
+  /// Finds the nearest words of `count` queries from `first` on; of equally near words the first. There must be words.
+  void find(const DescriptorMatrix& queries, std::size_t first, std::size_t count, Match* matches,
+            Workspace& work) const;
 
 private:
-  float distanceTo(const float* query, std::uint32_t word) const;
-  void boundCandidates(std::size_t level, Workspace& work) const;
+  float distanceTo(const Search& search, std::uint32_t slot) const;
+  void visit(std::size_t first_block, std::size_t blocks, Search* const* searches, std::size_t count,
+             Workspace& work) const;
+  Match nearest(Search& search, Workspace& work) const;
 
   DescriptorMatrix words_;
-  std::vector<BinMerge> levels_;
-  std::vector<float> coarse_;  // level 0 for chiSquaredBlocks(), the last block filled up with the last word
-  std::vector<std::vector<float>> finer_;  // the further levels, a row for each word
+  std::vector<std::uint32_t> order_;  // the word of each slot
+  WordCodes codes_;
+  MergedWords merged_;
 };
 
 }  // namespace sks

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/hellinger_axes.hpp"
+
+#include <algorithm>
+#include <random>
+
+#include <Eigen/QR>
+
+namespace sks {
+namespace {
+
+using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+constexpr std::size_t sample_size = 2048;  // words that the axes are learned from
+constexpr int power_iterations = 3;
+
+/// Square roots of some words, without the zeros, which are most of them.
+class SparseRoots {
+public:
+  explicit SparseRoots(const DescriptorMatrix& words)
+      : bins_(words.cols()), mean_(Eigen::VectorXf::Zero(words.cols())) {
+    const std::size_t rows = std::min(words.rows(), sample_size);
+    for (std::size_t row = 0; row < rows; ++row) {
+      const float* word = words.row(row * words.rows() / rows);
+      for (std::size_t bin = 0; bin < bins_; ++bin) {
+        if (word[bin] == 0) continue;
+        entries_.push_back({std::uint32_t(bin), std::sqrt(word[bin])});
+        mean_[bin] += entries_.back().root / float(rows);
+        mean_mass_ += word[bin] / float(rows);
+      }
+      ends_.push_back(entries_.size());
+    }
+  }
+
+  const Eigen::VectorXf& mean() const { return mean_; }
+  float meanMass() const { return mean_mass_; }
+
+  /// X axes, X being the roots less their mean, one row a word.
+  RowMajor times(const RowMajor& axes) const {
+    RowMajor product = (-(mean_.transpose() * axes)).replicate(ends_.size(), 1);
+    forEachEntry([&](std::size_t row, std::size_t bin, float root) { product.row(row) += root * axes.row(bin); });
+    return product;
+  }
+
+  /// X^T factors
+  RowMajor transposedTimes(const RowMajor& factors) const {
+    RowMajor product = -mean_ * factors.colwise().sum();
+    forEachEntry([&](std::size_t row, std::size_t bin, float root) { product.row(bin) += root * factors.row(row); });
+    return product;
+  }
+
+private:
+  struct Entry {
+    std::uint32_t bin;
+    float root;
+  };
+
+  template <typename Function>
+  void forEachEntry(Function&& f) const {
+    std::size_t entry = 0;
+    for (std::size_t row = 0; row < ends_.size(); ++row) {
+      for (; entry < ends_[row]; ++entry) f(row, entries_[entry].bin, entries_[entry].root);
+    }
+  }
+
+  std::size_t bins_;
+  std::vector<Entry> entries_;
+  std::vector<std::size_t> ends_;  // of each row's entries
+  Eigen::VectorXf mean_;
+  float mean_mass_ = 0;
+};
+
+RowMajor orthonormalized(const RowMajor& columns) {
+  const Eigen::HouseholderQR<Eigen::MatrixXf> decomposition(columns);
+  return decomposition.householderQ() * Eigen::MatrixXf::Identity(columns.rows(), columns.cols());
+}
+
+RowMajor randomColumns(std::size_t rows, std::size_t columns) {
+  std::mt19937 random(1);
+  RowMajor values(rows, columns);
+  for (Eigen::Index i = 0; i < values.size(); ++i) values.data()[i] = float(random() >> 8) / float(1 << 23) - 1.0f;
+  return values;
+}
+
+}  // namespace
+
+HellingerAxes::HellingerAxes(const DescriptorMatrix& words, std::size_t count) {
+  const SparseRoots roots(words);
+  mean_ = roots.mean();
+  mean_mass_ = roots.meanMass();
+  axes_ = orthonormalized(randomColumns(words.cols(), std::min(count, words.cols())));
+  for (int i = 0; i < power_iterations; ++i) axes_ = orthonormalized(roots.transposedTimes(roots.times(axes_)));
+  mean_coordinates_ = axes_.transpose() * mean_;
+}
+
+void HellingerAxes::project(const float* histogram, Projection& projection) const {
+  projection.coordinates = -mean_coordinates_;
+  projection.squares = mean_.squaredNorm();
+  projection.mass = 0;
+  for (Eigen::Index bin = 0; bin < mean_.size(); ++bin) {
+    if (!(histogram[bin] > 0)) continue;
+    const float root = std::sqrt(histogram[bin]);
+    projection.coordinates += root * axes_.row(bin).transpose();
+    projection.squares += root * (root - 2 * mean_[bin]);
+    projection.mass += histogram[bin];
+  }
+  projection.squares = std::max(projection.squares, 0.0f);
+}
+
+}  // namespace sks
