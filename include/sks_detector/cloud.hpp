@@ -24,6 +24,11 @@ struct Cloud {
   std::vector<Rgb> colors;              ///< empty (no colour), or one for each point
   Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();  ///< place of the camera in the frame of the points [m]
 
+  /// Of the points that are left of an organised cloud (sanitize()): where each was in the image, row * columns +
+  /// column, ascending. Else empty.
+  std::vector<std::uint32_t> pixels;
+  std::uint32_t columns = 0;  ///< of that image
+
   bool organized() const { return height > 1; }
   bool hasColor() const { return !colors.empty(); }
   std::size_t size() const { return points.size(); }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/image_normals.hpp"
 #include "core/orientation.hpp"
 #include "core/plane_fit.hpp"
 
@@ -22,6 +23,19 @@ void faceSensor(Surface& surface, std::size_t begin, std::size_t end) {
     surface.nx[i] *= side;
     surface.ny[i] *= side;
     surface.nz[i] *= side;
+  }
+}
+
+/// Normals of the points that the surface was made from, in its order.
+void takeNormals(Surface& surface, const std::vector<Eigen::Vector3f>& of_source, int threads) {
+  const std::size_t n = surface.size();
+  for (auto* axis : {&surface.nx, &surface.ny, &surface.nz}) axis->assign(n + PointGrid::simd_padding, 0.0f);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector3f& normal = of_source[surface.source[i]];
+    surface.nx[i] = normal.x();
+    surface.ny[i] = normal.y();
+    surface.nz[i] = normal.z();
   }
 }
 
@@ -46,7 +60,15 @@ Surface prepareSurface(const Cloud& sanitized, const SurfaceSettings& settings, 
   const double cell = cell_margin * settings.normal_radius;
   Surface surface = settings.resolution > 0 ? makeSurface(thin(sanitized, settings.resolution), cell, threads)
                                             : makeSurface(sanitized, cell, threads);
-  estimateNormals(surface, settings, orientation, threads);
+  std::vector<Eigen::Vector3f> normals;
+  if (orientation == Orientation::sensor && settings.resolution == 0 &&
+      imageNormals(sanitized, settings, threads, normals)) {
+    takeNormals(surface, normals, threads);
+    surface.orientation = orientation;
+    faceSensor(surface, 0, surface.size());
+  } else {
+    estimateNormals(surface, settings, orientation, threads);
+  }
   return surface;
 }
 

@@ -2,7 +2,6 @@
 // Planes at the points of a grid. Each SIMD lane is one point; a few consecutive points of a row share most of their
 // neighbours, which are read once for all of them.
 #include <algorithm>
-#include <limits>
 
 #include "core/plane_fit.hpp"
 
@@ -12,26 +11,12 @@
 
 #include <hwy/highway.h>
 
-#include "core/smallest_eigenvector-inl.hpp"
+#include "core/plane_moments-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace sks {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
-
-constexpr std::size_t max_lanes = PointGrid::simd_padding;
-using Points = hn::CappedTag<float, max_lanes>;
-
-/// Sums over the neighbours of each point, relative to it.
-struct Moments {
-  enum { count, x, y, z, xx, xy, xz, yy, yz, zz, size };
-  float sums[size][max_lanes];
-};
-
-/// Unit normals and how well each is determined.
-struct Fits {
-  float x[max_lanes], y[max_lanes], z[max_lanes], certainty[max_lanes];
-};
 
 /// Moves the window of a row on to the points between `low` and `high` in x.
 HWY_INLINE void slide(const float* x, float low, float high, PointGrid::Run row, PointGrid::Run& window) {
@@ -54,81 +39,13 @@ HWY_INLINE void slide(const float* x, float low, float high, PointGrid::Run row,
 void sumMoments(const PointGrid& grid, std::size_t first, float radius, const std::vector<PointGrid::Run>& windows,
                 Moments& moments) {
   const Points d;
-  const auto cx = hn::LoadU(d, &grid.x[first]), cy = hn::LoadU(d, &grid.y[first]), cz = hn::LoadU(d, &grid.z[first]);
-  const auto limit = hn::Set(d, radius * radius), one = hn::Set(d, 1.0f), zero = hn::Zero(d);
-  auto n = zero, sx = zero, sy = zero, sz = zero;
-  auto xx = zero, xy = zero, xz = zero, yy = zero, yz = zero, zz = zero;
+  MomentSums sums(hn::LoadU(d, &grid.x[first]), hn::LoadU(d, &grid.y[first]), hn::LoadU(d, &grid.z[first]), radius);
   for (const PointGrid::Run window : windows) {
     for (std::size_t i = window.begin; i < window.end; ++i) {
-      auto x = hn::Sub(hn::Set(d, grid.x[i]), cx);
-      auto y = hn::Sub(hn::Set(d, grid.y[i]), cy);
-      auto z = hn::Sub(hn::Set(d, grid.z[i]), cz);
-      const auto squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
-      const auto inside = hn::Le(squared, limit);
-      x = hn::IfThenElseZero(inside, x);
-      y = hn::IfThenElseZero(inside, y);
-      z = hn::IfThenElseZero(inside, z);
-      n = hn::Add(n, hn::IfThenElseZero(inside, one));
-      sx = hn::Add(sx, x);
-      sy = hn::Add(sy, y);
-      sz = hn::Add(sz, z);
-      xx = hn::MulAdd(x, x, xx);
-      xy = hn::MulAdd(x, y, xy);
-      xz = hn::MulAdd(x, z, xz);
-      yy = hn::MulAdd(y, y, yy);
-      yz = hn::MulAdd(y, z, yz);
-      zz = hn::MulAdd(z, z, zz);
+      sums.add(hn::Set(d, grid.x[i]), hn::Set(d, grid.y[i]), hn::Set(d, grid.z[i]));
     }
   }
-  float* out = moments.sums[0];
-  for (const auto& sum : {n, sx, sy, sz, xx, xy, xz, yy, yz, zz}) {
-    hn::StoreU(sum, d, out);
-    out += max_lanes;
-  }
-}
-
-/// Fits of `count` points from their moments, in double precision.
-void solve(const Moments& moments, std::size_t count, Fits& fits) {
-  const hn::CappedTag<double, max_lanes> d;
-  const hn::Rebind<float, decltype(d)> df;
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto load = [&](int k) { return hn::PromoteTo(d, hn::LoadU(df, &moments.sums[k][i])); };
-    const auto share = hn::Div(hn::Set(d, 1.0), load(Moments::count));
-    const auto mx = hn::Mul(load(Moments::x), share), my = hn::Mul(load(Moments::y), share),
-               mz = hn::Mul(load(Moments::z), share);
-    const auto covariance = [&](int k, auto a, auto b) { return hn::MulSub(load(k), share, hn::Mul(a, b)); };
-    SymmetricMatrices<decltype(hn::Zero(d))> m;
-    m.xx = covariance(Moments::xx, mx, mx);
-    m.xy = covariance(Moments::xy, mx, my);
-    m.xz = covariance(Moments::xz, mx, mz);
-    m.yy = covariance(Moments::yy, my, my);
-    m.yz = covariance(Moments::yz, my, mz);
-    m.zz = covariance(Moments::zz, mz, mz);
-    auto x = hn::Zero(d), y = x, z = x;
-    const auto certainty = smallestEigenvectors(d, m, x, y, z);
-    hn::StoreU(hn::DemoteTo(df, x), df, &fits.x[i]);
-    hn::StoreU(hn::DemoteTo(df, y), df, &fits.y[i]);
-    hn::StoreU(hn::DemoteTo(df, z), df, &fits.z[i]);
-    hn::StoreU(hn::DemoteTo(df, certainty), df, &fits.certainty[i]);
-  }
-}
-
-Eigen::Matrix3d covariance(const Moments& moments, std::size_t i) {
-  const auto sum = [&](int k) { return double(moments.sums[k][i]); };
-  const double n = sum(Moments::count);
-  const Eigen::Vector3d mean = Eigen::Vector3d(sum(Moments::x), sum(Moments::y), sum(Moments::z)) / n;
-  Eigen::Matrix3d scatter;
-  scatter << sum(Moments::xx), sum(Moments::xy), sum(Moments::xz), sum(Moments::xy), sum(Moments::yy), sum(Moments::yz),
-      sum(Moments::xz), sum(Moments::yz), sum(Moments::zz);
-  return scatter / n - mean * mean.transpose();
-}
-
-Eigen::Vector3f normalOf(const Moments& moments, const Fits& fits, std::size_t i, int min_neighbors) {
-  if (moments.sums[Moments::count][i] < float(min_neighbors)) {
-    return Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
-  }
-  if (!(fits.certainty[i] > 1e-12f)) return smallestEigenvector(covariance(moments, i));
-  return {fits.x[i], fits.y[i], fits.z[i]};
+  sums.store(moments);
 }
 
 void fitPlanesAtPointsImpl(const PointGrid& grid, std::size_t begin, std::size_t end, float radius, int min_neighbors,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <sstream>
+#include <utility>
 
 #include <sks_detector/error.hpp>
 
@@ -143,7 +144,7 @@ Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeRep
   SanitizeReport counts;
   counts.input = cloud.size();
   const auto usable = usablePoints(cloud, settings, counts);
-  const auto distinct = settings.remove_duplicates ? distinctPoints(cloud, usable) : usable;
+  auto distinct = settings.remove_duplicates ? distinctPoints(cloud, usable) : usable;
   counts.duplicates = usable.size() - distinct.size();
   Cloud kept;
   kept.sensor_origin = cloud.sensor_origin;
@@ -152,6 +153,10 @@ Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeRep
   if (cloud.hasColor()) {
     kept.colors.resize(distinct.size());
     for (std::size_t i = 0; i < distinct.size(); ++i) kept.colors[i] = cloud.colors[distinct[i]];
+  }
+  if (cloud.organized()) {
+    kept.pixels = std::move(distinct);
+    kept.columns = cloud.width;
   }
   counts.kept = kept.size();
   kept.width = std::uint32_t(kept.size());

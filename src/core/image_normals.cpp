@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Normals of organised clouds. Each SIMD lane is one pixel; its neighbours are read from the image, shifted by each
+// offset at which a point within the radius can appear.
+#include "core/image_normals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/pinhole_fit.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/image_normals.cpp"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+#include "core/plane_moments-inl.hpp"
+
+#ifndef SKS_IMAGE_NORMALS_ONCE
+#define SKS_IMAGE_NORMALS_ONCE
+namespace sks {
+
+/// Positions by pixel, NaN where there is none, with a margin on each side.
+struct PositionImage {
+  std::vector<float> x, y, z;
+  std::size_t stride = 0;
+  std::size_t margin = 0;
+
+  std::size_t at(std::size_t row, std::size_t column) const { return (row + margin) * stride + column + margin; }
+};
+
+/// How far from a point another one within the radius may appear.
+struct WindowSize {
+  float radius;  ///< [m]
+  float focal;   ///< [pixel]
+  float extra;   ///< [pixel]
+};
+
+}  // namespace sks
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace sks {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Largest distance in the image at which a neighbour of one of the points may appear [pixel].
+HWY_INLINE float reachOf(hn::Vec<Points> x, hn::Vec<Points> y, hn::Vec<Points> z, const WindowSize& window) {
+  const Points d;
+  const auto distance = hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z))));
+  const auto reach = hn::Div(distance, hn::Mul(z, hn::Sub(z, hn::Set(d, window.radius))));
+  const float largest = hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(hn::Eq(z, z), reach)));
+  return window.focal * window.radius * largest * (1 + 1e-3f) + window.extra;
+}
+
+void rowNormalsImpl(const PositionImage& image, std::size_t row, std::size_t columns, const WindowSize& window,
+                    int min_neighbors, Eigen::Vector3f* normals) {
+  const Points d;
+  Moments moments;
+  Fits fits;
+  for (std::size_t column = 0; column < columns; column += hn::Lanes(d)) {
+    const std::size_t here = image.at(row, column);
+    const auto x = hn::LoadU(d, &image.x[here]), y = hn::LoadU(d, &image.y[here]), z = hn::LoadU(d, &image.z[here]);
+    if (hn::AllFalse(d, hn::Eq(z, z))) continue;
+    const float reach = reachOf(x, y, z, window);
+    MomentSums sums(x, y, z, window.radius);
+    for (int down = -int(reach); down <= int(reach); ++down) {
+      const int half = int(std::sqrt(reach * reach - float(down * down)));
+      const std::size_t middle = std::size_t(std::ptrdiff_t(here) + down * std::ptrdiff_t(image.stride));
+      for (std::size_t i = middle - std::size_t(half); i <= middle + std::size_t(half); ++i) {
+        sums.add(hn::LoadU(d, &image.x[i]), hn::LoadU(d, &image.y[i]), hn::LoadU(d, &image.z[i]));
+      }
+    }
+    sums.store(moments);
+    solve(moments, hn::Lanes(d), fits);
+    for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
+      if (!std::isnan(image.z[here + i])) *normals++ = normalOf(moments, fits, i, min_neighbors);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sks
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sks {
+
+HWY_EXPORT(rowNormalsImpl);
+
+namespace {
+
+constexpr double max_margin = 64;  // [pixel]; nearer to the camera the grid is quicker
+
+/// The first point of each row of the image, and one past the last.
+std::vector<std::size_t> rowBegins(const Cloud& cloud) {
+  std::vector<std::size_t> begins;
+  for (std::size_t i = 0; i < cloud.pixels.size(); ++i) {
+    while (begins.size() <= cloud.pixels[i] / cloud.columns) begins.push_back(i);
+  }
+  begins.push_back(cloud.pixels.size());
+  return begins;
+}
+
+void drawRow(const Cloud& cloud, std::size_t row, std::size_t begin, std::size_t end, PositionImage& image) {
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::size_t at = image.at(row, cloud.pixels[i] - row * cloud.columns);
+    image.x[at] = cloud.points[i].x();
+    image.y[at] = cloud.points[i].y();
+    image.z[at] = cloud.points[i].z();
+  }
+}
+
+}  // namespace
+
+bool imageNormals(const Cloud& cloud, const SurfaceSettings& settings, int threads,
+                  std::vector<Eigen::Vector3f>& normals) {
+  const auto camera = fitPinhole(cloud, threads);
+  if (!camera || camera->nearest < 2 * settings.normal_radius) return false;
+  const WindowSize window{float(settings.normal_radius),
+                          float(std::max(std::abs(camera->focal_x), std::abs(camera->focal_y))),
+                          float(2 * camera->deviation)};
+  const double margin =
+      1.01 * window.focal * window.radius * camera->widest / (camera->nearest - window.radius) + window.extra;
+  if (margin > max_margin) return false;
+
+  const std::vector<std::size_t> begins = rowBegins(cloud);
+  const std::size_t rows = begins.size() - 1;
+  PositionImage image;
+  image.margin = std::size_t(margin) + 1;
+  image.stride = cloud.columns + 2 * image.margin + PointGrid::simd_padding;
+  const std::size_t size = (rows + 2 * image.margin) * image.stride;
+  for (auto* axis : {&image.x, &image.y, &image.z}) axis->assign(size, std::numeric_limits<float>::quiet_NaN());
+  normals.resize(cloud.size());
+#pragma omp parallel num_threads(threads)
+  {
+#pragma omp for schedule(static)
+    for (std::size_t row = 0; row < rows; ++row) drawRow(cloud, row, begins[row], begins[row + 1], image);
+#pragma omp for schedule(dynamic, 4)
+    for (std::size_t row = 0; row < rows; ++row) {
+      HWY_DYNAMIC_DISPATCH(rowNormalsImpl)
+      (image, row, cloud.columns, window, settings.normal_min_neighbors, &normals[begins[row]]);
+    }
+  }
+  return true;
+}
+
+}  // namespace sks
+#endif

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Planes through the neighbourhoods of several points, one in each lane; for inclusion by kernels that Highway compiles
+// once for each target.
+#if defined(SKS_PLANE_MOMENTS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SKS_PLANE_MOMENTS_INL
+#undef SKS_PLANE_MOMENTS_INL
+#else
+#define SKS_PLANE_MOMENTS_INL
+#endif
+
+#include <limits>
+
+#include <hwy/highway.h>
+
+#include "core/plane_fit.hpp"
+#include "core/smallest_eigenvector-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace sks {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t max_lanes = PointGrid::simd_padding;
+using Points = hn::CappedTag<float, max_lanes>;
+
+/// Sums over the neighbours of each point, relative to it.
+struct Moments {
+  enum { count, x, y, z, xx, xy, xz, yy, yz, zz, size };
+  float sums[size][max_lanes];
+};
+
+/// Unit normals and how well each is determined.
+struct Fits {
+  float x[max_lanes], y[max_lanes], z[max_lanes], certainty[max_lanes];
+};
+
+/// Forms the moments of a vector of points.
+class MomentSums {
+public:
+  using V = hn::Vec<Points>;
+
+  MomentSums(V x, V y, V z, float radius) : cx_(x), cy_(y), cz_(z), limit_(hn::Set(d_, radius * radius)) {}
+
+  /// One more candidate for each of the points; NaN is none.
+  HWY_INLINE void add(V px, V py, V pz) {
+    V x = hn::Sub(px, cx_), y = hn::Sub(py, cy_), z = hn::Sub(pz, cz_);
+    const V squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+    const auto inside = hn::Le(squared, limit_);
+    x = hn::IfThenElseZero(inside, x);
+    y = hn::IfThenElseZero(inside, y);
+    z = hn::IfThenElseZero(inside, z);
+    n_ = hn::Add(n_, hn::IfThenElseZero(inside, hn::Set(d_, 1.0f)));
+    sx_ = hn::Add(sx_, x);
+    sy_ = hn::Add(sy_, y);
+    sz_ = hn::Add(sz_, z);
+    xx_ = hn::MulAdd(x, x, xx_);
+    xy_ = hn::MulAdd(x, y, xy_);
+    xz_ = hn::MulAdd(x, z, xz_);
+    yy_ = hn::MulAdd(y, y, yy_);
+    yz_ = hn::MulAdd(y, z, yz_);
+    zz_ = hn::MulAdd(z, z, zz_);
+  }
+
+  void store(Moments& moments) const {
+    float* out = moments.sums[0];
+    for (const V& sum : {n_, sx_, sy_, sz_, xx_, xy_, xz_, yy_, yz_, zz_}) {
+      hn::StoreU(sum, d_, out);
+      out += max_lanes;
+    }
+  }
+
+private:
+  Points d_;
+  V cx_, cy_, cz_, limit_;
+  V n_ = hn::Zero(d_), sx_ = n_, sy_ = n_, sz_ = n_;
+  V xx_ = n_, xy_ = n_, xz_ = n_, yy_ = n_, yz_ = n_, zz_ = n_;
+};
+
+/// Fits of `count` points from their moments, in double precision.
+inline void solve(const Moments& moments, std::size_t count, Fits& fits) {
+  const hn::CappedTag<double, max_lanes> d;
+  const hn::Rebind<float, decltype(d)> df;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto load = [&](int k) { return hn::PromoteTo(d, hn::LoadU(df, &moments.sums[k][i])); };
+    const auto share = hn::Div(hn::Set(d, 1.0), load(Moments::count));
+    const auto mx = hn::Mul(load(Moments::x), share), my = hn::Mul(load(Moments::y), share),
+               mz = hn::Mul(load(Moments::z), share);
+    const auto covariance = [&](int k, auto a, auto b) { return hn::MulSub(load(k), share, hn::Mul(a, b)); };
+    SymmetricMatrices<decltype(hn::Zero(d))> m;
+    m.xx = covariance(Moments::xx, mx, mx);
+    m.xy = covariance(Moments::xy, mx, my);
+    m.xz = covariance(Moments::xz, mx, mz);
+    m.yy = covariance(Moments::yy, my, my);
+    m.yz = covariance(Moments::yz, my, mz);
+    m.zz = covariance(Moments::zz, mz, mz);
+    auto x = hn::Zero(d), y = x, z = x;
+    const auto certainty = smallestEigenvectors(d, m, x, y, z);
+    hn::StoreU(hn::DemoteTo(df, x), df, &fits.x[i]);
+    hn::StoreU(hn::DemoteTo(df, y), df, &fits.y[i]);
+    hn::StoreU(hn::DemoteTo(df, z), df, &fits.z[i]);
+    hn::StoreU(hn::DemoteTo(df, certainty), df, &fits.certainty[i]);
+  }
+}
+
+inline Eigen::Matrix3d covariance(const Moments& moments, std::size_t i) {
+  const auto sum = [&](int k) { return double(moments.sums[k][i]); };
+  const double n = sum(Moments::count);
+  const Eigen::Vector3d mean = Eigen::Vector3d(sum(Moments::x), sum(Moments::y), sum(Moments::z)) / n;
+  Eigen::Matrix3d scatter;
+  scatter << sum(Moments::xx), sum(Moments::xy), sum(Moments::xz), sum(Moments::xy), sum(Moments::yy), sum(Moments::yz),
+      sum(Moments::xz), sum(Moments::yz), sum(Moments::zz);
+  return scatter / n - mean * mean.transpose();
+}
+
+/// NaN where there are fewer than `min_neighbors`.
+inline Eigen::Vector3f normalOf(const Moments& moments, const Fits& fits, std::size_t i, int min_neighbors) {
+  if (moments.sums[Moments::count][i] < float(min_neighbors)) {
+    return Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+  }
+  if (!(fits.certainty[i] > 1e-12f)) return smallestEigenvector(covariance(moments, i));
+  return {fits.x[i], fits.y[i], fits.z[i]};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sks
+HWY_AFTER_NAMESPACE();
+
+#endif
