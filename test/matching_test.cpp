@@ -195,3 +195,66 @@ TEST(Matcher, OfNothingMatchesNothing) {
   EXPECT_TRUE(sks::Matcher(matrix({}, 352)).match(matrix(histograms(2, 352, 1), 352), 1).empty());
   EXPECT_TRUE(sks::Matcher(matrix(histograms(2, 352, 1), 352)).match(matrix({}, 352), 1).empty());
 }
+
+class ApproximateMatching : public testing::Test {
+protected:
+  static constexpr std::size_t size = 352;
+
+  /// Many words around few prototypes, as neighbouring views of a surface give.
+  ApproximateMatching() {
+    const Rows prototypes = histograms(200, size, 31);
+    for (int i = 0; i < 6000; ++i) words.push_back(jittered(prototypes[i % prototypes.size()], 0.3f));
+    for (int i = 0; i < 300; ++i) queries.push_back(jittered(words[17 * i], 0.1f));
+  }
+
+  std::vector<float> jittered(std::vector<float> bins, float share) {
+    for (float& bin : bins) bin *= 1 + share * (2 * uniform(random) - 1);
+    return bins;
+  }
+
+  std::mt19937 random{30};
+  Rows words, queries;
+};
+
+TEST_F(ApproximateMatching, FindsNearlyAllNearestWords) {
+  const auto exact = sks::Matcher(matrix(words, size), sks::SearchKind::exact).match(matrix(queries, size), 2);
+  const auto found = sks::Matcher(matrix(words, size), sks::SearchKind::approximate).match(matrix(queries, size), 2);
+  ASSERT_EQ(found.size(), exact.size());
+  std::size_t equal = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    equal += found[i].word == exact[i].word;
+    EXPECT_EQ(found[i].descriptor, i);
+    EXPECT_GE(found[i].distance, exact[i].distance);
+    EXPECT_FLOAT_EQ(found[i].distance, float(plainChiSquared(queries[i], words[found[i].word])));
+  }
+  EXPECT_GE(double(equal), 0.97 * double(exact.size()));
+}
+
+TEST_F(ApproximateMatching, DependsNeitherOnThreadsNorOnOtherQueries) {
+  const sks::Matcher matcher(matrix(words, size), sks::SearchKind::approximate);
+  const sks::Matcher again(matrix(words, size), sks::SearchKind::approximate);
+  const auto together = matcher.match(matrix(queries, size), 1);
+  for (const int threads : {2, 5}) {
+    const auto more = again.match(matrix(queries, size), threads);
+    for (std::size_t i = 0; i < together.size(); ++i) {
+      ASSERT_EQ(more[i].word, together[i].word);
+      ASSERT_EQ(more[i].distance, together[i].distance);
+    }
+  }
+  for (const std::size_t i : {0u, 7u, 299u}) {
+    const auto alone = matcher.match(matrix({queries[i]}, size), 2);
+    EXPECT_EQ(alone[0].word, together[i].word);
+    EXPECT_EQ(alone[0].distance, together[i].distance);
+  }
+}
+
+TEST_F(ApproximateMatching, OfFewOrEqualWordsIsExact) {
+  for (const std::size_t count : {1u, 2u, 300u, 600u}) {
+    const Rows same(count, words[0]);
+    for (const auto& match :
+         sks::Matcher(matrix(same, size), sks::SearchKind::approximate).match(matrix(queries, size), 2)) {
+      ASSERT_EQ(match.word, 0u);
+    }
+  }
+  EXPECT_TRUE(sks::Matcher(matrix({}, size), sks::SearchKind::approximate).match(matrix(queries, size), 2).empty());
+}

@@ -18,16 +18,28 @@ std::vector<std::uint32_t> inOrder(std::size_t count) {
   return order;
 }
 
+struct Coded {
+  sks::WordCodes codes;
+  sks::CodeTable table;
+
+  explicit Coded(const Rows& words) : table(words.size()) {
+    const sks::DescriptorMatrix matrix = sks::test::matrix(words, words[0].size());
+    codes = sks::WordCodes(matrix);
+    const auto vectors = codes.encode(matrix);
+    for (std::size_t w = 0; w < words.size(); ++w) table.set(w, vectors[w]);
+  }
+};
+
 /// Bounds of the distances of up to four queries to all words.
-Rows boundsOf(const sks::WordCodes& codes, const std::vector<sks::WordCodes::CodedQuery>& queries) {
-  Rows bounds(sks::queries_at_once, std::vector<float>(codes.table().blocks() * sks::block_words));
+Rows boundsOf(const sks::CodeTable& table, const std::vector<sks::WordCodes::CodedQuery>& queries) {
+  Rows bounds(sks::queries_at_once, std::vector<float>(table.blocks() * sks::block_words));
   std::array<const sks::CodedVector*, sks::queries_at_once> vectors;
   std::array<float*, sks::queries_at_once> out;
   for (std::size_t q = 0; q < sks::queries_at_once; ++q) {
     vectors[q] = &queries[std::min(q, queries.size() - 1)].vector;
     out[q] = bounds[q].data();
   }
-  sks::codeDistances(vectors, codes.table(), 0, codes.table().blocks(), out);
+  sks::codeDistances(vectors, table, 0, table.blocks(), out);
   return bounds;
 }
 
@@ -50,12 +62,12 @@ class WordCodes : public testing::TestWithParam<std::size_t> {};
 TEST_P(WordCodes, BoundsAreNotAboveDistances) {
   Rows words = sks::test::histograms(100, GetParam(), 1);
   words.push_back(std::vector<float>(GetParam(), 0.0f));
-  const sks::WordCodes codes(sks::test::matrix(words, GetParam()), inOrder(words.size()));
+  const Coded codes(words);
   sks::HellingerAxes::Projection projection;
   for (const auto& query : oddQueries(words)) {
     std::vector<sks::WordCodes::CodedQuery> coded(1);
-    codes.encode(query.data(), projection, coded[0]);
-    const auto bounds = boundsOf(codes, coded)[0];
+    codes.codes.encode(query.data(), projection, coded[0]);
+    const auto bounds = boundsOf(codes.table, coded)[0];
     for (std::size_t w = 0; w < words.size(); ++w) {
       const double distance = sks::test::plainChiSquared(query, words[w]);
       EXPECT_LE(bounds[w], distance * (1 + 1e-5) + coded[0].slack) << "word " << w;
@@ -66,11 +78,11 @@ TEST_P(WordCodes, BoundsAreNotAboveDistances) {
 
 TEST_P(WordCodes, BoundsComeNearDistances) {                    // else nothing would be ruled out
   const Rows words = sks::test::histograms(60, GetParam(), 2);  // no more than there are axes
-  const sks::WordCodes codes(sks::test::matrix(words, GetParam()), inOrder(words.size()));
+  const Coded codes(words);
   sks::HellingerAxes::Projection projection;
   std::vector<sks::WordCodes::CodedQuery> coded(1);
-  codes.encode(words[3].data(), projection, coded[0]);
-  const auto bounds = boundsOf(codes, coded)[0];
+  codes.codes.encode(words[3].data(), projection, coded[0]);
+  const auto bounds = boundsOf(codes.table, coded)[0];
   EXPECT_LT(coded[0].slack, 0.02 * sks::test::plainChiSquared(words[3], words[4]));
   for (std::size_t w = 0; w < words.size(); ++w) {
     EXPECT_GE(bounds[w] + coded[0].slack, 0.5 * sks::test::plainChiSquared(words[3], words[w])) << "word " << w;
@@ -79,12 +91,12 @@ TEST_P(WordCodes, BoundsComeNearDistances) {                    // else nothing 
 
 TEST_P(WordCodes, QueriesDoNotDependOnEachOther) {
   const Rows words = sks::test::histograms(50, GetParam(), 3);
-  const sks::WordCodes codes(sks::test::matrix(words, GetParam()), inOrder(words.size()));
+  const Coded codes(words);
   sks::HellingerAxes::Projection projection;
   std::vector<sks::WordCodes::CodedQuery> coded(sks::queries_at_once);
-  for (std::size_t q = 0; q < coded.size(); ++q) codes.encode(words[5 * q].data(), projection, coded[q]);
-  const Rows together = boundsOf(codes, coded);
-  for (std::size_t q = 0; q < coded.size(); ++q) EXPECT_EQ(together[q], boundsOf(codes, {coded[q]})[0]);
+  for (std::size_t q = 0; q < coded.size(); ++q) codes.codes.encode(words[5 * q].data(), projection, coded[q]);
+  const Rows together = boundsOf(codes.table, coded);
+  for (std::size_t q = 0; q < coded.size(); ++q) EXPECT_EQ(together[q], boundsOf(codes.table, {coded[q]})[0]);
 }
 
 TEST_P(WordCodes, MergedBoundsAreNotAboveDistances) {

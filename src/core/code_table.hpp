@@ -17,6 +17,9 @@ constexpr std::size_t block_size = block_words * code_size;
 /// Queries that one pass over a table serves.
 constexpr std::size_t queries_at_once = 4;
 
+/// The longest code that keeps inner products within 32 bits, with some room.
+constexpr float code_length = 30000;
+
 using Code = std::array<std::int16_t, code_size>;
 
 /// Coordinates, each histogram's in a unit of its own.

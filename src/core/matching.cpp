@@ -20,11 +20,22 @@ double chiSquared(const float* a, const float* b, std::size_t size) {
   return sum;
 }
 
+namespace {
+
+constexpr std::size_t most_exact = 65536;  // codewords that `automatic` searches exactly
+
+bool isExact(SearchKind search, std::size_t words) {
+  return search == SearchKind::exact || (search == SearchKind::automatic && words <= most_exact);
+}
+
+}  // namespace
+
 struct Matcher::Index : NearestWord {
   using NearestWord::NearestWord;
 };
 
-Matcher::Matcher(DescriptorMatrix words) : index_(std::make_unique<Index>(std::move(words))) {}
+Matcher::Matcher(DescriptorMatrix words, SearchKind search)
+    : index_(std::make_unique<Index>(std::move(words), isExact(search, words.rows()))) {}
 Matcher::~Matcher() = default;
 Matcher::Matcher(Matcher&&) noexcept = default;
 Matcher& Matcher::operator=(Matcher&&) noexcept = default;
@@ -38,12 +49,11 @@ std::vector<Match> Matcher::match(const DescriptorMatrix& queries, int threads) 
                                              std::to_string(words.cols()));
   }
   std::vector<Match> matches(queries.rows());
-  const std::size_t batches = (queries.rows() + NearestWord::batch - 1) / NearestWord::batch;
+  const std::size_t batch = index_->batch(queries.rows(), std::size_t(threads));
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
-  for (std::size_t i = 0; i < batches; ++i) {
+  for (std::size_t first = 0; first < queries.rows(); first += batch) {
     static thread_local NearestWord::Workspace work;  // kept from frame to frame
-    const std::size_t first = i * NearestWord::batch;
-    index_->find(queries, first, std::min(NearestWord::batch, queries.rows() - first), &matches[first], work);
+    index_->find(queries, first, std::min(batch, queries.rows() - first), &matches[first], work);
   }
   return matches;
 }

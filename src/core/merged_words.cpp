@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/word_clusters.hpp"
+
 namespace sks {
 namespace {
 
@@ -34,6 +36,7 @@ MergedWords::MergedWords(const DescriptorMatrix& words, const std::vector<std::u
     : merge_(learnBoundCascade(words, {merged_bins}).front()), rows_(order.size() * merge_.padded()) {
   std::vector<float> merged(merge_.padded()), kept(merged.size());
   for (std::size_t slot = 0; slot < order.size(); ++slot) {
+    if (order[slot] == WordClusters::no_word) continue;
     merge_.apply(words.row(order[slot]), merged.data());
     std::uint16_t* row = &rows_[slot * merged.size()];
     for (std::size_t i = 0; i < merged.size(); ++i) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <string>
 
 #include <sks_detector/error.hpp>
@@ -14,8 +13,12 @@
 namespace sks {
 namespace {
 
-constexpr float rounding = 1e-4f;        // above the relative error of single precision distances
-constexpr std::size_t tile_blocks = 64;  // whose codes stay in the cache while a batch of queries passes
+constexpr float rounding = 1e-4f;              // above the relative error of single precision distances
+constexpr std::size_t tile_blocks = 64;        // whose codes stay in the cache while a batch of queries passes
+constexpr std::size_t words_of_cluster = 256;  // about
+constexpr std::size_t clusters_visited = 64;   // about
+constexpr std::size_t candidates_kept = 256;   // of the words of clusters
+constexpr std::size_t centers_sampled = 16;    // every one of this many
 
 void checkHistograms(const DescriptorMatrix& words) {
   for (std::size_t i = 0; i < words.rows() * words.cols(); ++i) {
@@ -41,19 +44,37 @@ void dropAbove(float highest, NearestWord::Search& search) {
   search.bounds.resize(kept);
 }
 
+/// Keeps about the `kept` lowest bounds: no fewer, and ties.
+void keepLowest(std::size_t kept, NearestWord::Search& search, std::vector<float>& sorted) {
+  if (search.bounds.size() <= kept) return;
+  sorted = search.bounds;
+  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(kept - 1), sorted.end());
+  dropAbove(sorted[kept - 1], search);
+}
+
 }  // namespace
 
-NearestWord::NearestWord(DescriptorMatrix words) : words_(std::move(words)) {
+NearestWord::NearestWord(DescriptorMatrix words, bool exact) : words_(std::move(words)) {
   checkHistograms(words_);
   if (words_.rows() == 0) return;
-  order_.resize(words_.rows());
-  std::iota(order_.begin(), order_.end(), 0u);
-  codes_ = WordCodes(words_, order_);
-  merged_ = MergedWords(words_, order_);
+  codes_ = WordCodes(words_);
+  const std::vector<CodedVector> codes = codes_.encode(words_);
+  clusters_ = WordClusters(codes, exact ? 1 : words_.rows() / words_of_cluster);
+  const std::vector<std::uint32_t>& order = clusters_.order();
+  table_ = CodeTable(order.size());
+  for (std::size_t slot = 0; slot < order.size(); ++slot) {
+    if (order[slot] != WordClusters::no_word) table_.set(slot, codes[order[slot]]);
+  }
+  merged_ = MergedWords(words_, order);
+}
+
+std::size_t NearestWord::batch(std::size_t queries, std::size_t threads) const {
+  if (exact()) return 32;
+  return std::max<std::size_t>(32, (queries + threads - 1) / threads);  // the more, the more often a cluster is reused
 }
 
 float NearestWord::distanceTo(const Search& search, std::uint32_t slot) const {
-  return chiSquaredFast(search.histogram, words_.row(order_[slot]), words_.cols());
+  return chiSquaredFast(search.histogram, words_.row(clusters_.order()[slot]), words_.cols());
 }
 
 void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* const* searches, std::size_t count,
@@ -65,7 +86,7 @@ void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* con
     queries[q] = &searches[std::min(q, count - 1)]->query.vector;
     bounds[q] = &work.bounds[q * tile_blocks * block_words];
   }
-  codeDistances(queries, codes_.table(), first_block, blocks, bounds);
+  codeDistances(queries, table_, first_block, blocks, bounds);
   for (std::size_t q = 0; q < count; ++q) {
     Search& search = *searches[q];
     // The word of the lowest bound is likely to be near: its distance rules most others out.
@@ -84,6 +105,7 @@ void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* con
 
 Match NearestWord::nearest(Search& search, Workspace& work) const {
   dropAbove(highestBound(search), search);
+  if (!exact()) keepLowest(candidates_kept, search, work.sorted);
   merged_.merge(search.histogram, work.merged);
   merged_.distances(work.merged, search.slots, search.bounds);
   if (!search.slots.empty()) {
@@ -99,17 +121,82 @@ Match NearestWord::nearest(Search& search, Workspace& work) const {
   dropAbove(search.best * (1 + rounding), search);
   std::pair<double, std::uint32_t> nearest(std::numeric_limits<double>::infinity(), 0);
   for (const std::uint32_t slot : search.slots) {
-    const std::uint32_t word = order_[slot];
+    const std::uint32_t word = clusters_.order()[slot];
     nearest = std::min(nearest, {chiSquared(search.histogram, words_.row(word), words_.cols()), word});
   }
   return {0, nearest.second, float(nearest.first)};
+}
+
+void NearestWord::visitAll(std::size_t count, Workspace& work) const {
+  for (std::size_t block = 0; block < table_.blocks(); block += tile_blocks) {
+    for (std::size_t i = 0; i < count; i += queries_at_once) {
+      std::array<Search*, queries_at_once> group;
+      const std::size_t size = std::min(queries_at_once, count - i);
+      for (std::size_t q = 0; q < size; ++q) group[q] = &work.searches[i + q];
+      visit(block, std::min(tile_blocks, table_.blocks() - block), group.data(), size, work);
+    }
+  }
+}
+
+void NearestWord::visitCluster(std::size_t cluster, Search* const* searches, std::size_t count, Workspace& work) const {
+  const std::size_t end = clusters_.firstBlock(cluster + 1);
+  for (std::size_t block = clusters_.firstBlock(cluster); block < end; block += tile_blocks) {
+    visit(block, std::min(tile_blocks, end - block), searches, count, work);
+  }
+}
+
+/// Appends the clusters near to some queries to the visits, about as many as wanted: a sample of the centers tells how
+/// near. The nearest one is to be visited first, since it rules out most words of the others: they have the highest
+/// bit.
+void NearestWord::chooseClusters(std::size_t first, std::size_t count, Workspace& work) const {
+  const CodeTable& centers = clusters_.centers();
+  std::array<const CodedVector*, queries_at_once> queries;
+  std::array<float*, queries_at_once> distances;
+  work.centers.resize(queries_at_once * centers.units.size());
+  work.selected.resize(std::max(work.selected.size(), centers.units.size() + selection_room));
+  for (std::size_t q = 0; q < queries_at_once; ++q) {
+    queries[q] = &work.searches[first + std::min(q, count - 1)].query.vector;
+    distances[q] = &work.centers[q * centers.units.size()];
+  }
+  codeDistances(queries, centers, 0, centers.blocks(), distances);
+  for (std::size_t q = 0; q < count; ++q) {
+    work.sorted.clear();
+    for (std::size_t c = 0; c < clusters_.size(); c += centers_sampled) work.sorted.push_back(distances[q][c]);
+    const std::size_t rank = std::min(work.sorted.size() - 1, clusters_visited / centers_sampled);
+    std::nth_element(work.sorted.begin(), work.sorted.begin() + std::ptrdiff_t(rank), work.sorted.end());
+    const std::size_t nearest = indexOfSmallest(distances[q], centers.units.size());
+    const std::size_t chosen = selectUpTo(work.sorted[rank], distances[q], centers.units.size(), work.selected.data());
+    for (std::size_t i = 0; i < chosen; ++i) {
+      const std::uint64_t cluster = work.selected[i];
+      const std::uint64_t later = cluster == nearest ? 0 : std::uint64_t(1) << 63;
+      work.visits.push_back(later | cluster << 32 | (first + q));
+    }
+  }
+}
+
+void NearestWord::visitNearest(std::size_t count, Workspace& work) const {
+  work.visits.clear();
+  for (std::size_t i = 0; i < count; i += queries_at_once) {
+    chooseClusters(i, std::min(queries_at_once, count - i), work);
+  }
+  std::sort(work.visits.begin(), work.visits.end());
+  std::array<Search*, queries_at_once> group;
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < work.visits.size(); ++i) {
+    const std::uint64_t cluster = work.visits[i] >> 32;
+    group[size++] = &work.searches[std::uint32_t(work.visits[i])];
+    const bool last = i + 1 == work.visits.size() || work.visits[i + 1] >> 32 != cluster;
+    if (size < queries_at_once && !last) continue;
+    visitCluster(std::uint32_t(cluster) & 0x7fffffff, group.data(), size, work);
+    size = 0;
+  }
 }
 
 void NearestWord::find(const DescriptorMatrix& queries, std::size_t first, std::size_t count, Match* matches,
                        Workspace& work) const {
   work.searches.resize(std::max(work.searches.size(), count));
   work.bounds.resize(queries_at_once * tile_blocks * block_words);
-  work.selected.resize(tile_blocks * block_words + selection_room);
+  work.selected.resize(std::max(work.selected.size(), tile_blocks * block_words + selection_room));
   for (std::size_t i = 0; i < count; ++i) {
     Search& search = work.searches[i];
     search.histogram = queries.row(first + i);
@@ -118,14 +205,10 @@ void NearestWord::find(const DescriptorMatrix& queries, std::size_t first, std::
     search.slots.clear();
     search.bounds.clear();
   }
-  const std::size_t blocks = codes_.table().blocks();
-  for (std::size_t block = 0; block < blocks; block += tile_blocks) {
-    for (std::size_t i = 0; i < count; i += queries_at_once) {
-      std::array<Search*, queries_at_once> group;
-      const std::size_t size = std::min(queries_at_once, count - i);
-      for (std::size_t q = 0; q < size; ++q) group[q] = &work.searches[i + q];
-      visit(block, std::min(tile_blocks, blocks - block), group.data(), size, work);
-    }
+  if (exact()) {
+    visitAll(count, work);
+  } else {
+    visitNearest(count, work);
   }
   for (std::size_t i = 0; i < count; ++i) {
     matches[i] = nearest(work.searches[i], work);

@@ -8,23 +8,24 @@ namespace sks {
 namespace {
 
 constexpr std::size_t leftover = code_size - 1;  // place of what the axes before it leave over
-constexpr float code_length = 30000;             // the longest that keeps inner products within 32 bits, with some room
 constexpr float quantization = 1e-3f;            // above the relative error that this leaves in an inner product
 constexpr float rounding = 4e-6f;                // above that of sums in single precision
 
 }  // namespace
 
-WordCodes::WordCodes(const DescriptorMatrix& words, const std::vector<std::uint32_t>& order)
-    : axes_(words, code_size), floor_(1e-3f * axes_.meanMass() + 1e-20f), table_(order.size()) {
+WordCodes::WordCodes(const DescriptorMatrix& words)
+    : axes_(words, code_size), floor_(1e-3f * axes_.meanMass() + 1e-20f) {}
+
+std::vector<CodedVector> WordCodes::encode(const DescriptorMatrix& words) {
+  std::vector<CodedVector> codes(words.rows());
   HellingerAxes::Projection projection;
-  CodedVector word;
-  for (std::size_t slot = 0; slot < order.size(); ++slot) {
-    axes_.project(words.row(order[slot]), projection);
-    encode(projection, word);
-    table_.set(slot, word);
-    longest_ = std::max(longest_, std::sqrt(word.squares));
+  for (std::size_t i = 0; i < words.rows(); ++i) {
+    axes_.project(words.row(i), projection);
+    encode(projection, codes[i]);
+    longest_ = std::max(longest_, std::sqrt(codes[i].squares));
     largest_mass_ = std::max(largest_mass_, projection.mass);
   }
+  return codes;
 }
 
 void WordCodes::encode(const HellingerAxes::Projection& projection, CodedVector& vector) const {

@@ -11,7 +11,7 @@
 
 namespace sks {
 
-/// Lower bounds of the chi squared distances to whole blocks of words, from 16-bit coordinates on Hellinger axes.
+/// Codes histograms by 16-bit coordinates on Hellinger axes, so that codeDistances() are lower bounds of chi squared.
 class WordCodes {
 public:
   struct CodedQuery {
@@ -20,12 +20,11 @@ public:
   };
 
   WordCodes() = default;
-  /// @param order the word of each slot; slots are what blocks are made of
-  WordCodes(const DescriptorMatrix& words, const std::vector<std::uint32_t>& order);
+  explicit WordCodes(const DescriptorMatrix& words);
 
-  const CodeTable& table() const { return table_; }
+  /// Codes of all words; what is encoded as a query afterwards allows for their rounding.
+  std::vector<CodedVector> encode(const DescriptorMatrix& words);
 
-  /// @param projection a buffer
   /// @param projection a buffer
   void encode(const float* histogram, HellingerAxes::Projection& projection, CodedQuery& query) const;
 
@@ -36,7 +35,6 @@ private:
   float floor_ = 0;         // added to the square of what the axes leave over
   float longest_ = 0;       // vector of coordinates of a word
   float largest_mass_ = 0;  // of a word
-  CodeTable table_;
 };
 
 }  // namespace sks
