@@ -19,17 +19,23 @@ struct Match {
 /// Chi squared distance of two histograms, in the order of the formula; bins with a + b = 0 add nothing.
 double chiSquared(const float* a, const float* b, std::size_t size);
 
-/// Exact nearest neighbour under chi squared by a cascade of lower bounds (docs/method.md). Immutable once built:
-/// match() may be called from several threads.
+/// How nearest codewords are found; `automatic` is exact up to 65,536 codewords.
+enum class SearchKind { automatic, exact, approximate };
+
+/// Nearest neighbour under chi squared (docs/method.md). Immutable once built: match() may be called from several
+/// threads.
 class Matcher {
 public:
-  /// Keeps a reference to the descriptors' storage. @throws Error(bad_data) if they hold a negative or non-finite value
-  explicit Matcher(DescriptorMatrix words);
+  /// Keeps a reference to the descriptors' storage. An approximate search finds nearly all of the nearest words, in a
+  /// time that hardly grows with their number.
+  /// @throws Error(bad_data) if the descriptors hold a negative or non-finite value
+  explicit Matcher(DescriptorMatrix words, SearchKind search = SearchKind::automatic);
   ~Matcher();
   Matcher(Matcher&&) noexcept;
   Matcher& operator=(Matcher&&) noexcept;
 
-  /// One match for each query, in their order; of equally near words the first. Empty if there are no words.
+  /// One match for each query, in their order; of equally near words the first. Empty if there are no words. The same
+  /// for any number of threads, and for any other queries.
   /// @throws Error(incompatible) if the descriptors' sizes differ
   std::vector<Match> match(const DescriptorMatrix& queries, int threads) const;
 
