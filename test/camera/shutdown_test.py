@@ -16,14 +16,14 @@ from camera_testing import Recorder  # noqa: E402
 
 
 class ShutdownTest(unittest.TestCase):
-    def check(self, command):
+    def check(self, command, how=signal.SIGINT):
         parameters = ['_device:=sks-test://0', '_widht:=320', '_rate:=-5', '_loop:=maybe', '_height:=240']
         process = subprocess.Popen(command + ['__name:=tested'] + parameters, stdout=subprocess.PIPE,
                                    stderr=subprocess.STDOUT, universal_newlines=True)
         try:
             recorder = Recorder('/tested/points', PointCloud2)
             self.assertEqual(recorder.wait(5)[0].height, 480)
-            process.send_signal(signal.SIGINT)
+            process.send_signal(how)
             output = process.communicate(timeout=30)[0]
             recorder.close()
         finally:
@@ -38,6 +38,9 @@ class ShutdownTest(unittest.TestCase):
 
     def test_executable(self):
         self.check(['rosrun', 'sks_detector', 'camera_node'])
+
+    def test_executable_that_is_terminated(self):
+        self.check(['rosrun', 'sks_detector', 'camera_node'], signal.SIGTERM)
 
     def test_nodelet(self):
         self.check(['rosrun', 'nodelet', 'nodelet', 'standalone', 'sks_detector/CameraNodelet'])

@@ -6,6 +6,7 @@ import subprocess
 import time
 import unittest
 
+import rosnode
 import rospy
 import rostest
 from nodelet.srv import NodeletList, NodeletLoad, NodeletLoadRequest, NodeletUnload
@@ -68,6 +69,9 @@ class ManagerTest(unittest.TestCase):
     def expect_clean_end(self):
         status, output = self.manager.end()
         self.assertEqual(status, 0, output)
+        self.expect_no_trouble(output)
+
+    def expect_no_trouble(self, output):
         for word in ("terminate", "abort", "egmentation", "boost::"):
             self.assertNotIn(word, output)
 
@@ -128,6 +132,30 @@ class ManagerTest(unittest.TestCase):
         for _ in range(5):
             self.source.publisher.publish(support.cloud_message(synthetic.scene()))
         self.expect_clean_end()
+        detections.close()
+
+    def test_ends_cleanly_while_a_detector_starts(self):
+        for delay in (0, 0.05, 0.2):
+            self.manager.load("detector")
+            time.sleep(delay)
+            self.expect_clean_end()
+            self.manager = Manager("nodelets")
+        self.expect_clean_end()
+
+    def test_unloads_a_detector_that_starts(self):
+        self.manager.load("detector")
+        self.manager.unload("detector")
+        self.assertEqual(self.manager.nodelets(), [])
+        self.expect_clean_end()
+
+    def test_detector_node_ends_cleanly_when_it_is_terminated(self):
+        node = support.Node("terminated", {"codebook": support.CODEBOOK})
+        detections = support.Recorder("/terminated/detections", DetectionArray)
+        self.expect_answer(detections)
+        status = node.stop(signal.SIGTERM)
+        self.assertEqual(status, 0, node.output())
+        self.expect_no_trouble(node.output())
+        self.assertNotIn("/terminated", rosnode.get_node_names())
         detections.close()
 
 

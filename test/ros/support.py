@@ -187,10 +187,10 @@ class Node:
         return wait_for(lambda: next((line for line in list(self._lines) if all(t in line for t in texts)), None),
                         "%s in the output of %s" % (texts, self.name))
 
-    def stop(self):
-        """Ends it as Ctrl-C does; the exit status."""
+    def stop(self, how=signal.SIGINT):
+        """Ends it, unless told otherwise as Ctrl-C does; the exit status."""
         if self.alive():
-            self._process.send_signal(signal.SIGINT)
+            self._process.send_signal(how)
         status = self._process.wait(PATIENCE)
         self._reader.join()
         return status

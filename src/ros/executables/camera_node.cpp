@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <ros/console.h>
-#include <ros/init.h>
-#include <ros/node_handle.h>
+#include <exception>
+#include <iostream>
+
+#include <ros/ros.h>
 
 #include "ros/camera/camera_node.hpp"
+#include "ros/termination.hpp"
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   ros::init(argc, argv, "camera");
-  try {
-    const sks_detector::CameraNode node(ros::NodeHandle("~"), ros::this_node::getName());
-    ros::spin();
-  } catch (const std::exception& error) {
-    ROS_FATAL("The camera cannot start: %s", error.what());
-    return 1;
-  }
+  const ros::NodeHandle private_handle("~");
+  sks_detector::shutDownOnTermination();
+  const sks_detector::CameraNode node(private_handle, ros::this_node::getName());
+  ros::spin();
   return 0;
+} catch (const std::exception& error) {
+  std::cerr << "the camera does not start: " << error.what() << "\n";  // the log is closed by now
+  return 1;
 }

@@ -5,10 +5,13 @@
 #include <ros/ros.h>
 
 #include "ros/detector_node.hpp"
+#include "ros/termination.hpp"
 
 int main(int argc, char** argv) try {
   ros::init(argc, argv, "detector");
-  sks_detector::DetectorNode node(ros::NodeHandle("~"));
+  const ros::NodeHandle private_handle("~");
+  sks_detector::shutDownOnTermination();
+  sks_detector::DetectorNode node(private_handle);
   ros::spin();
   return 0;
 } catch (const std::exception& error) {
