@@ -72,27 +72,29 @@ Descriptors computeDescriptors(const Surface& surface, const Keypoints& keypoint
                 "CSHOT describes colour, but the cloud has none: use a coloured cloud, or SHOT (descriptor.type=shot)");
   }
   const std::size_t n = keypoints.size(), cols = descriptorSize(type);
-  std::vector<float> values(n * cols, 0.0f);
-  std::vector<Eigen::Matrix3f> frames(n);
-  std::vector<char> valid(n, 0);
-#pragma omp parallel num_threads(threads)
-  {
-    Workspace work;
-#pragma omp for schedule(dynamic, 16)
-    for (std::size_t i = 0; i < n; ++i) {
-      valid[i] = describe(surface, keypoints.positions[i], type, settings, work, frames[i], &values[i * cols]);
-    }
+  constexpr std::uint32_t none = std::uint32_t(-1);
+  std::vector<float> values(n * cols);
+  Descriptors descriptors;
+  descriptors.frames.resize(n);
+  descriptors.keypoints.resize(n);
+#pragma omp parallel for schedule(dynamic, 16) num_threads(threads)
+  for (std::size_t i = 0; i < n; ++i) {
+    thread_local Workspace work;  // keeps its buffers from frame to frame
+    const bool described =
+        describe(surface, keypoints.positions[i], type, settings, work, descriptors.frames[i], &values[i * cols]);
+    descriptors.keypoints[i] = described ? std::uint32_t(i) : none;
   }
 
-  Descriptors descriptors;
+  std::size_t rows = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    if (!valid[i]) continue;
-    const std::size_t row = descriptors.keypoints.size();
-    if (row != i) std::copy_n(&values[i * cols], cols, &values[row * cols]);
-    descriptors.keypoints.push_back(std::uint32_t(i));
-    descriptors.frames.push_back(frames[i]);
+    if (descriptors.keypoints[i] == none) continue;
+    if (rows != i) std::copy_n(&values[i * cols], cols, &values[rows * cols]);
+    descriptors.frames[rows] = descriptors.frames[i];
+    descriptors.keypoints[rows++] = std::uint32_t(i);
   }
-  values.resize(descriptors.keypoints.size() * cols);
+  descriptors.frames.resize(rows);
+  descriptors.keypoints.resize(rows);
+  values.resize(rows * cols);
   descriptors.values = DescriptorMatrix(std::move(values), cols);
   return descriptors;
 }

@@ -94,13 +94,12 @@ namespace {
 constexpr double max_margin = 64;  // [pixel]; nearer to the camera the grid is quicker
 
 /// The first point of each row of the image, and one past the last.
-std::vector<std::size_t> rowBegins(const Cloud& cloud) {
-  std::vector<std::size_t> begins;
+void findRowBegins(const Cloud& cloud, std::vector<std::size_t>& begins) {
+  begins.clear();
   for (std::size_t i = 0; i < cloud.pixels.size(); ++i) {
     while (begins.size() <= cloud.pixels[i] / cloud.columns) begins.push_back(i);
   }
   begins.push_back(cloud.pixels.size());
-  return begins;
 }
 
 void drawRow(const Cloud& cloud, std::size_t row, std::size_t begin, std::size_t end, PositionImage& image) {
@@ -125,9 +124,13 @@ bool imageNormals(const Cloud& cloud, const SurfaceSettings& settings, int threa
       1.01 * window.focal * window.radius * camera->widest / (camera->nearest - window.radius) + window.extra;
   if (margin > max_margin) return false;
 
-  const std::vector<std::size_t> begins = rowBegins(cloud);
+  // Both kept from frame to frame; the other threads see those of this one.
+  thread_local std::vector<std::size_t> kept_begins;
+  thread_local PositionImage kept_image;
+  std::vector<std::size_t>& begins = kept_begins;
+  PositionImage& image = kept_image;
+  findRowBegins(cloud, begins);
   const std::size_t rows = begins.size() - 1;
-  PositionImage image;
   image.margin = std::size_t(margin) + 1;
   image.stride = cloud.columns + 2 * image.margin + PointGrid::simd_padding;
   const std::size_t size = (rows + 2 * image.margin) * image.stride;

@@ -51,8 +51,8 @@ void sumMoments(const PointGrid& grid, std::size_t first, float radius, const st
 void fitPlanesAtPointsImpl(const PointGrid& grid, std::size_t begin, std::size_t end, float radius, int min_neighbors,
                            NormalArrays normals) {
   const std::size_t lanes = hn::Lanes(Points());
-  const float reach = radius * (1 + 1e-3f);  // rounding must not lose a point at the rim
-  std::vector<PointGrid::Run> rows, windows;
+  const float reach = radius * (1 + 1e-3f);                // rounding must not lose a point at the rim
+  thread_local std::vector<PointGrid::Run> rows, windows;  // kept from frame to frame
   Moments moments;
   Fits fits;
   for (std::size_t first = begin, row_end = begin, next; first < end; first = next) {

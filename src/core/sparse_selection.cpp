@@ -45,7 +45,7 @@ void measureCurvature(const Surface& surface, Keypoints& keypoints, const Keypoi
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::size_t begin = 0; begin < n; begin += chunk) {
     const std::size_t end = std::min(begin + chunk, n);
-    std::vector<PointGrid::Run> runs;
+    thread_local std::vector<PointGrid::Run> runs;  // kept from frame to frame
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3f& position = keypoints.positions[i];
       surface.findRuns(position, normal_radius, runs);
