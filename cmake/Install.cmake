@@ -20,7 +20,7 @@ endif()
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${sks_include_dir} FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY config DESTINATION ${sks_share_dir} FILES_MATCHING PATTERN "*.yaml" PATTERN "*.rviz")
 #catkin_lint: ignore_once wrong_bin_install_destination
-install(PROGRAMS scripts/plot_evaluation.py DESTINATION ${sks_share_dir}/scripts)
+install(PROGRAMS scripts/plot_evaluation.py scripts/plot_keypoints.py DESTINATION ${sks_share_dir}/scripts)
 # The other scripts serve the checkout.
 #catkin_lint: ignore uninstalled_script
 

@@ -17,18 +17,6 @@ void checkColor(const Cloud& cloud, const Codebook& codebook) {
                   "train with --set descriptor.type=shot");
 }
 
-Keypoints sceneKeypoints(const Surface& surface, const Settings& settings, int threads, StageCounts& counts) {
-  Keypoints keypoints = detectKeypoints(surface, settings.keypoints, threads);
-  counts.grid_keypoints = keypoints.size();
-  const bool selects = settings.keypoints.selection != SelectionRule::rank || settings.keypoints.discard > 0;
-  if (settings.keypoints.detector == KeypointDetector::grid && selects) {
-    measureCurvature(surface, keypoints, settings.keypoints, settings.surface, threads);
-    keypoints = selectKeypoints(keypoints, settings.keypoints);
-  }
-  counts.keypoints = keypoints.size();
-  return keypoints;
-}
-
 }  // namespace
 
 Settings settingsFor(const Codebook& codebook, Settings settings) {
@@ -46,6 +34,17 @@ Settings settingsFor(const Codebook& codebook, Settings settings) {
   return settings;
 }
 
+Keypoints selectedKeypoints(const Surface& surface, const Settings& settings, int threads, std::size_t* all) {
+  Keypoints keypoints = detectKeypoints(surface, settings.keypoints, threads);
+  if (all != nullptr) *all = keypoints.size();
+  const bool selects = settings.keypoints.selection != SelectionRule::rank || settings.keypoints.discard > 0;
+  if (settings.keypoints.detector == KeypointDetector::grid && selects) {
+    measureCurvature(surface, keypoints, settings.keypoints, settings.surface, threads);
+    keypoints = selectKeypoints(keypoints, settings.keypoints);
+  }
+  return keypoints;
+}
+
 SceneDescription describeScene(const Cloud& cloud, Orientation orientation, const Codebook& codebook,
                                const Matcher& matcher, const Settings& settings, StageTimes& times,
                                StageCounts& counts) {
@@ -61,7 +60,7 @@ SceneDescription describeScene(const Cloud& cloud, Orientation orientation, cons
   scene.surface = prepareSurface(sanitized, settings.surface, orientation, threads);
   times.normals = stage.lap();
 
-  scene.keypoints = sceneKeypoints(scene.surface, settings, threads, counts);
+  scene.keypoints = selectedKeypoints(scene.surface, settings, threads, &counts.grid_keypoints);
   times.keypoints = stage.lap();
 
   scene.descriptors =
@@ -76,6 +75,7 @@ SceneDescription describeScene(const Cloud& cloud, Orientation orientation, cons
 
   counts.input_points = cloud.size();
   counts.points = scene.surface.size();
+  counts.keypoints = scene.keypoints.size();
   counts.descriptors = scene.descriptors.keypoints.size();
   counts.votes = scene.matches.size();
   return scene;

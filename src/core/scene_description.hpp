@@ -30,6 +30,9 @@ struct SceneDescription {
 ///         codebook was trained with
 Settings settingsFor(const Codebook& codebook, Settings settings);
 
+/// The keypoints of a scene after the selection that the settings ask for. @param all where given: how many there were
+Keypoints selectedKeypoints(const Surface& surface, const Settings& settings, int threads, std::size_t* all = nullptr);
+
 /// Sanitizes, prepares and selects keypoints, describes them, matches and votes; fills in times and counts of these.
 /// @param settings of settingsFor()
 /// @throws Error(bad_data) for an unusable cloud, Error(incompatible) for a cloud without colour with CSHOT

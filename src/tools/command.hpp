@@ -28,6 +28,8 @@ void addTrain(CLI::App& app);
 void addDetect(CLI::App& app);
 void addEvaluate(CLI::App& app);
 void addClassify(CLI::App& app);
+void addKeypoints(CLI::App& app);
+void addImport(CLI::App& app);
 void addInfo(CLI::App& app);
 void addVerify(CLI::App& app);
 void addSettings(CLI::App& app);

@@ -5,7 +5,9 @@
 #include <sks_detector/dataset.hpp>
 #include <sks_detector/detector.hpp>
 #include <sks_detector/evaluation.hpp>
+#include <sks_detector/file.hpp>
 
+#include "tools/bop_results.hpp"
 #include "tools/codebook_options.hpp"
 #include "tools/command.hpp"
 #include "tools/evaluation_json.hpp"
@@ -21,6 +23,7 @@ struct Options {
   std::string dataset;
   std::string method = "sks";
   std::string plot;
+  std::string bop_results;
   CodebookOptions codebook;
   SettingsOptions settings;
   JsonOption json;
@@ -34,6 +37,10 @@ void run(const Options& options) {
   for (const std::string& warning : data_set.warnings) warn(warning);
   options.json.check();  // what cannot be written is found before the work is done
   options.codebook.check();
+  if (!options.bop_results.empty()) {
+    checkBopNames(data_set);
+    checkWritable(options.bop_results);
+  }
   if (!options.plot.empty()) preparePlots(options.plot);
 
   ProgressBar bar;
@@ -49,6 +56,7 @@ void run(const Options& options) {
   bar.clear();
   const nlohmann::json json = evaluationJson(evaluation);
   options.json.write(json);
+  if (!options.bop_results.empty()) writeFileAtomically(options.bop_results, bopResults(data_set, evaluation));
   if (!options.json.onStdout()) print(evaluationTable(evaluation));
   if (options.plot.empty()) return;
   const auto clouds = [&](std::size_t scene) { return readCloud(data_set.scenes[scene].path, data_set.scale); };
@@ -72,6 +80,10 @@ void addEvaluate(CLI::App& app) {
   options->json.add(*command);
   command->add_option("--plot", options->plot, "draw precision-recall curves, thresholds, times and each scene")
       ->type_name("DIR");
+  command
+      ->add_option("--bop-results", options->bop_results,
+                   "write every detection in the result format of the BOP challenge (of a set of sks import bop)")
+      ->type_name("FILE");
   command->callback([options] { run(*options); });
 }
 

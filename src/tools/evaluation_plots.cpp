@@ -4,31 +4,15 @@
 #include <cctype>
 #include <filesystem>
 
-#include <sks_detector/error.hpp>
 #include <sks_detector/file.hpp>
 
-#include "tools/run_program.hpp"
+#include "tools/plot_script.hpp"
 #include "tools/scene_picture.hpp"
-#include "tools/share.hpp"
 
 namespace sks::tools {
 namespace {
 
-void makeFolder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw Error(ErrorCode::bad_file, "cannot make the folder '" + folder.string() + "': " + error.message());
-}
-
-/// Runs the plotting script, which says on stderr what is wrong.
-void runScript(const std::vector<std::string>& arguments) {
-  std::vector<std::string> command{"/usr/bin/python3", sharePath("scripts/plot_evaluation.py")};
-  command.insert(command.end(), arguments.begin(), arguments.end());
-  const int status = runProgram(command);
-  if (status == 0) return;
-  throw Error(ErrorCode::bad_file, command[1] + " failed with exit status " + std::to_string(status) +
-                                       "; see its message above, or leave out --plot");
-}
+constexpr const char* script = "scripts/plot_evaluation.py";
 
 /// The name of a scene's picture; names that cannot stand in a file name are numbered so that no two meet.
 std::string pictureName(const std::string& scene, std::size_t index) {
@@ -44,7 +28,7 @@ std::string pictureName(const std::string& scene, std::size_t index) {
 void preparePlots(const std::string& folder) {
   makeFolder(folder);
   checkWritable((std::filesystem::path(folder) / "evaluation.json").string());
-  runScript({"--check"});
+  runPlotScript(script, {"--check"});
 }
 
 void writePlots(const std::string& folder, const SceneClouds& clouds, const Evaluation& evaluation,
@@ -52,9 +36,9 @@ void writePlots(const std::string& folder, const SceneClouds& clouds, const Eval
   const std::filesystem::path plots(folder);
   const std::string file = (plots / "evaluation.json").string();
   writeFileAtomically(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-  runScript({file, folder});
+  runPlotScript(script, {file, folder});
   const std::filesystem::path pictures = plots / "scenes";
-  makeFolder(pictures);
+  makeFolder(pictures.string());
   const std::size_t count = evaluation.scenes.size();
   for (std::size_t i = 0; i < count; ++i) {
     const SceneResult& result = evaluation.scenes[i];

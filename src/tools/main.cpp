@@ -38,6 +38,8 @@ int main(int argc, char** argv) {
   tools::addDetect(app);
   tools::addEvaluate(app);
   tools::addClassify(app);
+  tools::addKeypoints(app);
+  tools::addImport(app);
   tools::addSimulate(app);
   tools::addBag(app);
   tools::addInfo(app);

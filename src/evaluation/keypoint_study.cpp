@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/keypoint_study.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include <sks_detector/cloud_io.hpp>
+#include <sks_detector/error.hpp>
+#include <sks_detector/metrics.hpp>
+#include <sks_detector/sanitize.hpp>
+#include <sks_detector/surface.hpp>
+
+#include "core/scene_description.hpp"
+#include "core/stopwatch.hpp"
+
+namespace sks {
+namespace {
+
+constexpr int timed_runs = 3;
+
+KeypointStudy emptyStudy(const DataSet& data_set, const Settings& settings) {
+  KeypointStudy study;
+  study.data_set = data_set.name;
+  study.settings = settings;
+  KeypointSettings grid = settings.keypoints, iss = settings.keypoints, sks = settings.keypoints;
+  sks.detector = grid.detector = KeypointDetector::grid;
+  grid.selection = SelectionRule::rank;
+  grid.discard = 0;
+  iss.detector = KeypointDetector::iss;
+  const std::string share = sks.selection == SelectionRule::rank ? std::to_string(std::lround(100 * sks.discard))
+                                                                 : getSetting(settings, "keypoints.selection");
+  study.kinds = {{"grid", grid, {}, {}}, {"sks-" + share, sks, {}, {}}, {"iss", iss, {}, {}}};
+  return study;
+}
+
+/// Goes through the scenes of a data set; keeps the described training clouds.
+class Study {
+public:
+  Study(const DataSet& data_set, const Settings& settings)
+      : data_set_(data_set), threads_(threadCount(settings)), study_(emptyStudy(data_set, settings)) {}
+
+  KeypointStudy run(const Progress& progress) {
+    for (std::size_t i = 0; i < data_set_.scenes.size(); ++i) {
+      const Scene& scene = data_set_.scenes[i];
+      report(progress, {"comparing keypoints", scene.name, i, data_set_.scenes.size()});
+      studyScene(scene);
+    }
+    report(progress, {"comparing keypoints", "", data_set_.scenes.size(), data_set_.scenes.size()});
+    if (study_.scenes == 0) {
+      throw Error(ErrorCode::bad_data, "'" + data_set_.file +
+                                           "' has no pair to compare: an object of a scene needs a "
+                                           "'pose' and, as 'reference', one of the training clouds");
+    }
+    return std::move(study_);
+  }
+
+private:
+  /// The training cloud that a pose maps; null where there is none.
+  const TrainingEntry* referenceOf(const GroundTruth& truth) const {
+    if (!truth.T_scene_reference) return nullptr;
+    for (const TrainingEntry& entry : data_set_.training) {
+      if (!entry.mesh && entry.source == truth.reference) return &entry;
+    }
+    return nullptr;
+  }
+
+  Surface prepare(const std::string& path, ViewKind kind) const {
+    try {
+      SanitizeSettings sanitizing = study_.settings.sanitize;
+      if (kind == ViewKind::model) sanitizing.min_range = 0;  // a model's origin is no sensor
+      const Cloud cloud = sanitize(readCloud(path, data_set_.scale), sanitizing);
+      const Orientation orientation = kind == ViewKind::model ? Orientation::outward : Orientation::sensor;
+      return prepareSurface(cloud, study_.settings.surface, orientation, threads_);
+    } catch (const Error& error) {
+      const bool named = std::string(error.what()).find(path) != std::string::npos;
+      throw Error(error.code(), (named ? "" : path + ": ") + error.what());
+    }
+  }
+
+  DescribedKeypoints describe(const Surface& surface, const KeypointSettings& kind) const {
+    Settings settings = study_.settings;
+    settings.keypoints = kind;
+    Keypoints keypoints = selectedKeypoints(surface, settings, threads_);
+    Descriptors descriptors =
+        computeDescriptors(surface, keypoints, DescriptorType::shot, settings.descriptor, threads_);
+    return {std::move(keypoints), std::move(descriptors)};
+  }
+
+  /// Of a training cloud, one for each kind.
+  const std::vector<DescribedKeypoints>& describedObject(const TrainingEntry& entry) {
+    std::vector<DescribedKeypoints>& kinds = objects_[entry.source];
+    if (!kinds.empty()) return kinds;
+    const Surface surface = prepare(entry.path, entry.kind);
+    for (const StudiedKeypoints& kind : study_.kinds) kinds.push_back(describe(surface, kind.settings));
+    return kinds;
+  }
+
+  double keypointTime(const Surface& surface, const KeypointSettings& kind) const {
+    Settings settings = study_.settings;
+    settings.keypoints = kind;
+    std::vector<double> times;
+    for (int i = 0; i < timed_runs; ++i) {
+      Stopwatch stopwatch;
+      selectedKeypoints(surface, settings, threads_);
+      times.push_back(stopwatch.lap());
+    }
+    return *percentile(times, 0.5);
+  }
+
+  void studyScene(const Scene& scene) {
+    std::vector<std::pair<const GroundTruth*, const TrainingEntry*>> pairs;
+    for (const GroundTruth& truth : scene.objects) {
+      if (const TrainingEntry* reference = referenceOf(truth)) pairs.emplace_back(&truth, reference);
+    }
+    study_.skipped += scene.objects.size() - pairs.size();
+    if (pairs.empty()) return;
+    ++study_.scenes;
+    const Surface surface = prepare(scene.path, ViewKind::view);
+    for (std::size_t k = 0; k < study_.kinds.size(); ++k) {
+      StudiedKeypoints& kind = study_.kinds[k];
+      kind.scene_times.push_back(keypointTime(surface, kind.settings));
+      const DescribedKeypoints described = describe(surface, kind.settings);
+      for (const auto& [truth, reference] : pairs) {
+        StudiedPair pair{scene.name, truth->object, {}, {}};
+        pair.pair = comparePair(describedObject(*reference)[k], described, study_.settings.ransac, threads_);
+        if (pair.pair.T_scene_object) {
+          pair.t_diff =
+              poseError(*pair.pair.T_scene_object, *truth->T_scene_reference, truth->position, truth->symmetry).t_diff;
+        }
+        kind.pairs.push_back(std::move(pair));
+      }
+    }
+  }
+
+  const DataSet& data_set_;
+  int threads_;
+  KeypointStudy study_;
+  std::map<std::string, std::vector<DescribedKeypoints>> objects_;
+};
+
+}  // namespace
+
+double StudiedKeypoints::meanTime() const {
+  return std::accumulate(scene_times.begin(), scene_times.end(), 0.0) /
+         double(std::max<std::size_t>(1, scene_times.size()));
+}
+
+double KeypointStudy::relativeTime(const StudiedKeypoints& kind) const {
+  return kind.meanTime() / kinds.back().meanTime();
+}
+
+KeypointStudy studyKeypoints(const DataSet& data_set, const Settings& settings, const Progress& progress) {
+  validate(settings);
+  return Study(data_set, settings).run(progress);
+}
+
+}  // namespace sks
