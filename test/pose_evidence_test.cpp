@@ -93,12 +93,14 @@ TEST(PoseEvidence, AGlanceTellsAGoodPoseFromABadOne) {
   const Settings settings;
   const Surface scene = sceneWith();
   const SceneView scene_view(scene, settings);
-  const RoughSupport good = glance(trained(), scene_view, moved(0.004, 0, 0));
-  const RoughSupport bad = glance(trained(), scene_view, moved(0, 0, -0.2));
-  EXPECT_GT(good.supported, 50);
-  EXPECT_GT(good.share, 0.8);
+  const std::vector<float> weights = distinctiveness(trained());
+  const RoughSupport good = glance(trained(), weights, scene_view, moved(0.004, 0, 0));
+  const RoughSupport bad = glance(trained(), weights, scene_view, moved(0, 0, -0.2));
+  EXPECT_GT(good.points, 50);
+  EXPECT_GT(good.supported, 0.7 * good.visible);
+  EXPECT_EQ(bad.points, 0);
   EXPECT_EQ(bad.supported, 0);
-  EXPECT_EQ(bad.share, 0);
+  EXPECT_GT(bad.visible, 0);
 }
 
 }  // namespace

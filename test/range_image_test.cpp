@@ -19,26 +19,39 @@ Cloud twoWalls() {
 
 TEST(RangeImage, KnowsWhatIsHiddenSeenAndSeenThrough) {
   const RangeImage image(prepared(twoWalls()), 0.01f);
-  EXPECT_EQ(image.look({-0.2f, 0, 1.0f}, 0.015f), Sight::at);
-  EXPECT_EQ(image.look({-0.2f, 0, 1.01f}, 0.015f), Sight::at);
-  EXPECT_EQ(image.look({-0.2f, 0, 1.1f}, 0.015f), Sight::hidden);
-  EXPECT_EQ(image.look({-0.2f, 0, 0.9f}, 0.015f), Sight::in_front);
-  EXPECT_EQ(image.look({0.1f, 0, 0.7f}, 0.015f), Sight::at);
-  EXPECT_EQ(image.look({0.1f, 0, 1.0f}, 0.015f), Sight::hidden);
+  EXPECT_EQ(image.look({-0.2f, 0, 1.0f}, 0.015f).sight, Sight::at);
+  EXPECT_EQ(image.look({-0.2f, 0, 1.01f}, 0.015f).sight, Sight::at);
+  EXPECT_EQ(image.look({-0.2f, 0, 1.1f}, 0.015f).sight, Sight::hidden);
+  EXPECT_EQ(image.look({-0.2f, 0, 0.9f}, 0.015f).sight, Sight::in_front);
+  EXPECT_EQ(image.look({0.1f, 0, 0.7f}, 0.015f).sight, Sight::at);
+  EXPECT_EQ(image.look({0.1f, 0, 1.0f}, 0.015f).sight, Sight::hidden);
 }
 
 TEST(RangeImage, KnowsNothingOfWhatWasNotMeasured) {
   const RangeImage image(prepared(twoWalls()), 0.01f);
-  EXPECT_EQ(image.look({0.8f, 0, 1}, 0.015f), Sight::unknown);     // beside the wall
-  EXPECT_EQ(image.look({-0.2f, 0, -1}, 0.015f), Sight::unknown);   // behind the camera
-  EXPECT_EQ(image.look({0, 0, 0}, 0.015f), Sight::unknown);        // the camera itself
+  EXPECT_EQ(image.look({0.8f, 0, 1}, 0.015f).sight, Sight::unknown);     // beside the wall
+  EXPECT_EQ(image.look({-0.2f, 0, -1}, 0.015f).sight, Sight::unknown);   // behind the camera
+  EXPECT_EQ(image.look({0, 0, 0}, 0.015f).sight, Sight::unknown);        // the camera itself
+}
+
+TEST(RangeImage, GivesThePointThatWasSeen) {
+  const Surface scene = prepared(twoWalls());
+  const RangeImage image(scene, 0.01f);
+  for (const Eigen::Vector3f& place : {Eigen::Vector3f(-0.2f, 0.1f, 1.3f), Eigen::Vector3f(0.1f, 0, 0.5f)}) {
+    const Sighting seen = image.look(place, 0.015f);
+    ASSERT_NE(seen.point, no_point);
+    const Eigen::Vector3f on_the_ray = place * (scene.point(seen.point).z() / place.z());
+    EXPECT_LT((scene.point(seen.point) - on_the_ray).norm(), 0.01f);
+  }
+  EXPECT_NEAR(scene.point(image.look({0.1f, 0, 1}, 0.015f).point).z(), 0.7f, 0.002f);
+  EXPECT_EQ(image.look({0.8f, 0, 1}, 0.015f).point, no_point);
 }
 
 TEST(RangeImage, MovesWithTheSensor) {
   const Eigen::Isometry3f T = poseOf(130, {1, 2, 3}, {3, -1, 0.5f});
   const RangeImage image(prepared(transformed(twoWalls(), T)), 0.01f);
-  EXPECT_EQ(image.look(T * Eigen::Vector3f(-0.2f, 0, 1.1f), 0.015f), Sight::hidden);
-  EXPECT_EQ(image.look(T * Eigen::Vector3f(-0.2f, 0, 0.9f), 0.015f), Sight::in_front);
+  EXPECT_EQ(image.look(T * Eigen::Vector3f(-0.2f, 0, 1.1f), 0.015f).sight, Sight::hidden);
+  EXPECT_EQ(image.look(T * Eigen::Vector3f(-0.2f, 0, 0.9f), 0.015f).sight, Sight::in_front);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <sks_detector/cloud.hpp>
 #include <sks_detector/codebook.hpp>
 #include <sks_detector/detection.hpp>
-#include <sks_detector/matching.hpp>
+#include <sks_detector/object_matching.hpp>
 #include <sks_detector/settings.hpp>
 
 namespace sks {
@@ -35,7 +35,7 @@ public:
 private:
   std::shared_ptr<const Codebook> codebook_;
   Settings settings_;
-  std::shared_ptr<const Matcher> matcher_;
+  std::shared_ptr<const ObjectMatcher> matcher_;
   std::shared_ptr<const Verifier> verifier_;
 };
 

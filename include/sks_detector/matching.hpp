@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -14,7 +15,11 @@ struct Match {
   std::uint32_t descriptor;  ///< row in the scene's descriptors
   std::uint32_t word;        ///< row in the codebook's descriptors
   float distance;            ///< chi squared: sum (a-b)^2 / (a+b)
+  float weight = 1;          ///< of its vote, in (0, 1]: 1 for the nearest codeword of all
 };
+
+/// Finds codewords for descriptors, with so many threads.
+using MatchFunction = std::function<std::vector<Match>(const DescriptorMatrix&, int threads)>;
 
 /// Chi squared distance of two histograms, in the order of the formula; bins with a + b = 0 add nothing.
 double chiSquared(const float* a, const float* b, std::size_t size);

@@ -167,7 +167,7 @@ struct RansacSettings {
 };
 
 struct RefinementSettings {
-  int iterations = 10;
+  int iterations = 12;
   double start_distance = 0.02;
   double end_distance = 0.005;
   int max_points = 250;
@@ -185,17 +185,21 @@ struct RefinementSettings {
 };
 
 struct VerificationSettings {
-  int candidates = 40;
+  int candidates = 60;
+  double ambiguity = 1.3;
   double support_distance = 0.008;
   double support_angle = 0.45;
   double occlusion_distance = 0.015;
-  double half_evidence = 3.8;
+  double half_evidence = 4.1;
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
     v(s.candidates, "candidates", Range{0, 1000}, "",
       "poses of each object, from single correspondences, that are refined and compared with the stored surface; 0: "
       "hypotheses are the Hough maxima that pass RANSAC, scored by their votes alone, as published");
+    v(s.ambiguity, "ambiguity", Range{1, 10}, "",
+      "each object's nearest codeword votes too, with less weight, where its distance is within this factor of the "
+      "nearest of all; 1: only the nearest, as published. Needs candidates above 0");
     v(s.support_distance, "support_distance", Range{0.0005, 0.1}, "m",
       "a point of the stored surface is confirmed by a scene point within this distance");
     v(s.support_angle, "support_angle", Range{0.01, 1.5}, "rad", "... whose normal deviates by no more than this");

@@ -48,8 +48,9 @@ Classification Classifier::classify(const Cloud& cloud, ViewKind kind) const {
   Classification result;
   Stopwatch total;
   const Orientation orientation = kind == ViewKind::model ? Orientation::outward : Orientation::sensor;
+  const auto match = [this](const DescriptorMatrix& d, int threads) { return matcher_.match(d, threads); };
   const SceneDescription scene =
-      describeScene(cloud, orientation, *codebook_, matcher_, settings_, result.times, result.counts);
+      describeScene(cloud, orientation, *codebook_, match, settings_, result.times, result.counts);
 
   Stopwatch stage;
   const std::vector<ObjectMaximum> maxima = findAllMaxima(scene.votes, settings_, threadCount(settings_));

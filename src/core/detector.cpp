@@ -32,6 +32,7 @@ Inspection inspectionOf(const SceneDescription& scene) {
   Inspection inspection{scene.keypoints.positions, {}, {}};
   for (std::size_t object = 0; object < scene.votes.size(); ++object) {
     for (const Vote& vote : scene.votes[object]) {
+      if (vote.weight < 1) continue;  // of the nearest codewords only
       inspection.votes.push_back(vote.position);
       inspection.vote_objects.push_back(std::uint32_t(object));
     }
@@ -51,7 +52,7 @@ bool better(const Detection& a, const Detection& b) {
 Detector::Detector(std::shared_ptr<const Codebook> codebook, const Settings& settings)
     : codebook_(std::move(codebook)),
       settings_(settingsFor(*codebook_, settings)),
-      matcher_(std::make_shared<Matcher>(codebook_->descriptors)),
+      matcher_(std::make_shared<ObjectMatcher>(*codebook_)),
       verifier_(std::make_shared<Verifier>(codebook_)) {}
 
 Detector Detector::withSettings(const Settings& settings) const {
@@ -65,13 +66,16 @@ DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) con
   DetectionResult result;
   StageTimes& times = result.times;
   Stopwatch total;
+  const bool verifies = settings_.verification.candidates > 0;
+  const double ambiguity = verifies ? settings_.verification.ambiguity : 1.0;
+  const auto match = [&](const DescriptorMatrix& d, int n) { return matcher_->match(d, ambiguity, n); };
   const SceneDescription scene =
-      describeScene(cloud, Orientation::sensor, *codebook_, *matcher_, settings_, times, result.counts);
+      describeScene(cloud, Orientation::sensor, *codebook_, match, settings_, times, result.counts);
   if (inspection) *inspection = inspectionOf(scene);
 
   Stopwatch stage;
   std::vector<Hypothesis> hypotheses;
-  if (settings_.verification.candidates > 0) {
+  if (verifies) {
     hypotheses = verifier_->findPoses(scene.votes, scene.surface, settings_, threads);
   } else {
     const auto maxima = findAllMaxima(scene.votes, settings_, threads);

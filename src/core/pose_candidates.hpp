@@ -23,7 +23,8 @@ struct PoseCandidate {
 };
 
 /// The most promising poses of each object, at most `verification.candidates`, best first within each object.
-std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<std::vector<Vote>>& spaces,
-                                          const SceneView& scene, const Settings& settings, int threads);
+/// @param weights of the points of each view's stored surface, see distinctiveness()
+std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<std::vector<float>>& weights,
+                                          const std::vector<std::vector<Vote>>& spaces, const SceneView& scene, const Settings& settings, int threads);
 
 }  // namespace sks

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace sks {
 namespace {
@@ -34,12 +33,10 @@ void forEachFacing(const TrainingView& view, const Surface& scene, const Eigen::
   }
 }
 
-constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
-
-/// The scene point within `distance` whose normal agrees best; `nobody` if none does by `agreement`.
+/// The scene point within `distance` whose normal agrees best; `no_point` if none does by `agreement`.
 std::uint32_t partnerOf(const Placed& placed, const Surface& scene, float distance, float agreement,
                         std::vector<PointGrid::Run>& runs) {
-  std::uint32_t partner = nobody;
+  std::uint32_t partner = no_point;
   scene.forEachNeighbor(placed.point, distance, runs, [&](std::uint32_t j, float) {
     const float cosine = placed.normal.dot(scene.normal(j));
     if (cosine > agreement) {
@@ -82,8 +79,8 @@ PoseEvidence examinePose(const TrainingView& view, const std::vector<float>& wei
     const double weighted = area * weights[i];
     evidence.facing += area;
     const std::uint32_t partner = partnerOf(placed, scene.surface, distance, agreement, runs);
-    if (partner == nobody) {
-      const Sight sight = scene.range_image.look(placed.point, float(verification.occlusion_distance));
+    if (partner == no_point) {
+      const Sight sight = scene.range_image.look(placed.point, float(verification.occlusion_distance)).sight;
       if (sight == Sight::unknown) evidence.weighted_visible += unmeasured * weighted;
       if (sight == Sight::at || sight == Sight::in_front) evidence.weighted_visible += weighted;
       return;
@@ -97,22 +94,25 @@ PoseEvidence examinePose(const TrainingView& view, const std::vector<float>& wei
   return evidence;
 }
 
-RoughSupport glance(const TrainingView& view, const SceneView& scene, const Eigen::Isometry3d& T_scene_model) {
+RoughSupport glance(const TrainingView& view, const std::vector<float>& weights, const SceneView& scene,
+                    const Eigen::Isometry3d& T_scene_model) {
+  const Surface& surface = scene.surface;
   const std::size_t stride = std::max<std::size_t>(1, view.surface_points.size() / glance_points);
   RoughSupport support;
-  double visible = 1;  // so that few points make no large share
-  std::vector<PointGrid::Run> runs;
-  forEachFacing(view, scene.surface, T_scene_model, stride, [&](std::size_t, const Placed& placed) {
-    if (partnerOf(placed, scene.surface, glance_distance, glance_agreement, runs) != nobody) {
-      ++support.supported;
-      ++visible;
-      return;
+  forEachFacing(view, surface, T_scene_model, stride, [&](std::size_t i, const Placed& placed) {
+    const auto [sight, point] = scene.range_image.look(placed.point, glance_occlusion);
+    const bool confirmed = point != no_point && placed.normal.dot(surface.normal(point)) > glance_agreement &&
+                           (surface.point(point) - placed.point).squaredNorm() < glance_distance * glance_distance;
+    if (confirmed) {
+      ++support.points;
+      support.supported += weights[i];
     }
-    const Sight sight = scene.range_image.look(placed.point, glance_occlusion);
-    if (sight == Sight::unknown) visible += unmeasured;
-    if (sight == Sight::at || sight == Sight::in_front) ++visible;
+    if (confirmed || sight == Sight::at || sight == Sight::in_front) {
+      support.visible += weights[i];
+    } else if (sight == Sight::unknown) {
+      support.visible += unmeasured * weights[i];
+    }
   });
-  support.share = support.supported / visible;
   return support;
 }
 

@@ -42,13 +42,15 @@ struct PoseEvidence {
 PoseEvidence examinePose(const TrainingView& view, const std::vector<float>& weights, const SceneView& scene,
                          const Settings& settings, const Eigen::Isometry3d& T_scene_model);
 
-/// A quick look at a rough pose: how many of up to 80 points of the view's surface the scene confirms, and which share
-/// of those that should be seen.
+/// A quick look at a rough pose, along the sensor's rays only: how much of up to 80 points of the view's surface the
+/// scene confirms. Points count as much as they are telling.
 struct RoughSupport {
-  int supported = 0;
-  double share = 0;
+  int points = 0;        ///< confirmed
+  double supported = 0;  ///< their weights
+  double visible = 0;    ///< weights of all that should be seen; half where nothing was measured
 };
 
-RoughSupport glance(const TrainingView& view, const SceneView& scene, const Eigen::Isometry3d& T_scene_model);
+RoughSupport glance(const TrainingView& view, const std::vector<float>& weights, const SceneView& scene,
+                    const Eigen::Isometry3d& T_scene_model);
 
 }  // namespace sks

@@ -55,10 +55,16 @@ RangeImage::RangeImage(const Surface& scene, float radius) : origin_(scene.senso
   height_ = int(size.y() / cell_) + 1;
   nearest_.assign(std::size_t(width_) * height_, std::numeric_limits<float>::infinity());
   farthest_.assign(nearest_.size(), -1);
+  points_.assign(nearest_.size(), no_point);
+  std::vector<float> nearest_normal(nearest_.size(), std::numeric_limits<float>::infinity());
   for (std::size_t i = 0; i < scene.size(); ++i) {
     const Eigen::Vector3f p = project(scene.point(i));
     if (p.z() < 0) continue;
     const std::size_t cell = std::size_t((p.y() - v0_) / cell_) * width_ + std::size_t((p.x() - u0_) / cell_);
+    if (p.z() < nearest_normal[cell] && scene.normal(i).allFinite()) {
+      nearest_normal[cell] = p.z();
+      points_[cell] = std::uint32_t(i);
+    }
     nearest_[cell] = std::min(nearest_[cell], p.z());
     farthest_[cell] = std::max(farthest_[cell], p.z());
   }
@@ -72,15 +78,15 @@ Eigen::Vector3f RangeImage::project(const Eigen::Vector3f& place) const {
   return {p.x() / p.z(), p.y() / p.z(), range};
 }
 
-Sight RangeImage::look(const Eigen::Vector3f& place, float tolerance) const {
+Sighting RangeImage::look(const Eigen::Vector3f& place, float tolerance) const {
   const Eigen::Vector3f p = project(place);
   const float column = std::floor((p.x() - u0_) / cell_), row = std::floor((p.y() - v0_) / cell_);
-  if (p.z() < 0 || !(column >= 0 && row >= 0 && column < float(width_) && row < float(height_))) return Sight::unknown;
+  if (p.z() < 0 || !(column >= 0 && row >= 0 && column < float(width_) && row < float(height_))) return {};
   const std::size_t cell = std::size_t(row) * width_ + std::size_t(column);
-  if (farthest_[cell] < 0) return Sight::unknown;
-  if (p.z() < nearest_[cell] - tolerance) return Sight::in_front;
-  if (p.z() > farthest_[cell] + tolerance) return Sight::hidden;
-  return Sight::at;
+  if (farthest_[cell] < 0) return {};
+  if (p.z() < nearest_[cell] - tolerance) return {Sight::in_front, points_[cell]};
+  if (p.z() > farthest_[cell] + tolerance) return {Sight::hidden, points_[cell]};
+  return {Sight::at, points_[cell]};
 }
 
 }  // namespace sks

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,6 +19,14 @@ enum class Sight {
   in_front,  ///< in front of it: the sensor looked through this place
 };
 
+constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
+
+/// What the sensor saw in the direction of a place.
+struct Sighting {
+  Sight sight = Sight::unknown;
+  std::uint32_t point = no_point;  ///< the nearest scene point with a normal in that direction, if there is one
+};
+
 /// A scene as its sensor saw it: the nearest and the farthest point in each cell of a perspective grid, whose cells are
 /// about two spacings of the points wide. Immutable once built; thread-safe.
 class RangeImage {
@@ -25,7 +35,7 @@ public:
   RangeImage(const Surface& scene, float radius);
 
   /// @param tolerance nearer to the seen surface than this is at it [m]
-  Sight look(const Eigen::Vector3f& place, float tolerance) const;
+  Sighting look(const Eigen::Vector3f& place, float tolerance) const;
 
 private:
   Eigen::Vector3f project(const Eigen::Vector3f& place) const;  // (u, v, range); range < 0 behind the sensor
@@ -35,6 +45,7 @@ private:
   float cell_ = 1;
   float u0_ = 0, v0_ = 0;
   int width_ = 0, height_ = 0;
+  std::vector<std::uint32_t> points_;    // with a normal, the nearest of each cell
   std::vector<float> nearest_, farthest_;  // [m]; farthest < 0 where nothing was measured
 };
 

@@ -46,7 +46,7 @@ Keypoints selectedKeypoints(const Surface& surface, const Settings& settings, in
 }
 
 SceneDescription describeScene(const Cloud& cloud, Orientation orientation, const Codebook& codebook,
-                               const Matcher& matcher, const Settings& settings, StageTimes& times,
+                               const MatchFunction& match, const Settings& settings, StageTimes& times,
                                StageCounts& counts) {
   checkColor(cloud, codebook);
   const int threads = threadCount(settings);
@@ -67,7 +67,7 @@ SceneDescription describeScene(const Cloud& cloud, Orientation orientation, cons
       computeDescriptors(scene.surface, scene.keypoints, codebook.descriptor_type, settings.descriptor, threads);
   times.descriptors = stage.lap();
 
-  scene.matches = matcher.match(scene.descriptors.values, threads);
+  scene.matches = match(scene.descriptors.values, threads);
   times.matching = stage.lap();
 
   scene.votes = castVotes(codebook, scene.matches, scene.descriptors, scene.keypoints);

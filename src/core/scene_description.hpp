@@ -21,7 +21,7 @@ struct SceneDescription {
   Surface surface;
   Keypoints keypoints;  ///< those that the selection kept
   Descriptors descriptors;
-  std::vector<Match> matches;            ///< one for each descriptor
+  std::vector<Match> matches;            ///< in the order of the descriptors
   std::vector<std::vector<Vote>> votes;  ///< one Hough space per object
 };
 
@@ -34,10 +34,11 @@ Settings settingsFor(const Codebook& codebook, Settings settings);
 Keypoints selectedKeypoints(const Surface& surface, const Settings& settings, int threads, std::size_t* all = nullptr);
 
 /// Sanitizes, prepares and selects keypoints, describes them, matches and votes; fills in times and counts of these.
+/// @param match finds the codewords of descriptors of the codebook's size
 /// @param settings of settingsFor()
 /// @throws Error(bad_data) for an unusable cloud, Error(incompatible) for a cloud without colour with CSHOT
 SceneDescription describeScene(const Cloud& cloud, Orientation orientation, const Codebook& codebook,
-                               const Matcher& matcher, const Settings& settings, StageTimes& times,
+                               const MatchFunction& match, const Settings& settings, StageTimes& times,
                                StageCounts& counts);
 
 }  // namespace sks

@@ -6,9 +6,8 @@
 #include <optional>
 #include <tuple>
 
-#include <sks_detector/refinement.hpp>
-
 #include "core/pose_candidates.hpp"
+#include "core/projective_refinement.hpp"
 #include "core/vote_density.hpp"
 
 namespace sks {
@@ -102,7 +101,7 @@ Verifier::Verifier(std::shared_ptr<const Codebook> codebook) : codebook_(std::mo
 std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>& spaces, const Surface& surface,
                                             const Settings& settings, int threads) const {
   const SceneView scene(surface, settings);
-  const std::vector<PoseCandidate> candidates = poseCandidates(*codebook_, spaces, scene, settings, threads);
+  const std::vector<PoseCandidate> candidates = poseCandidates(*codebook_, weights_, spaces, scene, settings, threads);
   std::vector<VoteDensity> densities;
   for (const auto& votes : spaces) densities.emplace_back(votes, settings.voting.bandwidth);
 
@@ -114,8 +113,7 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
     Hypothesis& hypothesis = examined[i].hypothesis;
     hypothesis.object = candidate.object;
     hypothesis.view = candidate.view;
-    hypothesis.T_scene_model =
-        refinePose(view.surface_points, view.surface_normals, surface, settings.refinement, candidate.T_scene_model);
+    hypothesis.T_scene_model = refineAlongRays(view, scene, settings.refinement, candidate.T_scene_model);
     hypothesis.T_scene_box = hypothesis.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
     hypothesis.box_size = view.extent().cast<double>();
     const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();

@@ -9,28 +9,30 @@
 
 namespace sks {
 
-/// Kernel density of one object's votes anywhere (eq. 3 without its constant); thread-safe once built.
+/// Kernel density of one object's weighted votes anywhere (eq. 3 without its constant); thread-safe once built.
 class VoteDensity {
 public:
   /// @param bandwidth of the Gaussian kernel [m], which is cut off at three times that
   VoteDensity(const std::vector<Vote>& votes, double bandwidth)
-      : grid_(positionsOf(votes), reach * bandwidth), bandwidth_(float(bandwidth)) {}
+      : grid_(positionsOf(votes), reach * bandwidth), bandwidth_(float(bandwidth)) {
+    for (const std::uint32_t i : grid_.source) weights_.push_back(votes[i].weight);
+  }
 
   double at(const Eigen::Vector3f& place) const {
     double density = 0;
     const float factor = -0.5f / (bandwidth_ * bandwidth_);
     std::vector<PointGrid::Run> runs;
     grid_.forEachNeighbor(place, reach * bandwidth_, runs,
-                          [&](std::uint32_t, float squared) { density += std::exp(factor * squared); });
+                          [&](std::uint32_t j, float squared) { density += weights_[j] * std::exp(factor * squared); });
     return density;
   }
 
-  /// Votes within the bandwidth of a place.
+  /// Votes within the bandwidth of a place: their weights, rounded.
   std::uint32_t count(const Eigen::Vector3f& place) const {
-    std::uint32_t votes = 0;
+    double votes = 0;
     std::vector<PointGrid::Run> runs;
-    grid_.forEachNeighbor(place, bandwidth_, runs, [&](std::uint32_t, float) { ++votes; });
-    return votes;
+    grid_.forEachNeighbor(place, bandwidth_, runs, [&](std::uint32_t j, float) { votes += weights_[j]; });
+    return std::uint32_t(std::lround(votes));
   }
 
 private:
@@ -44,6 +46,7 @@ private:
   }
 
   PointGrid grid_;
+  std::vector<float> weights_;  // of the votes, in the order of the grid
   float bandwidth_;
 };
 

@@ -15,6 +15,7 @@ std::vector<std::vector<Vote>> castVotes(const Codebook& codebook, const std::ve
     vote.position = vote.keypoint + vote.rotation * (view.center() - word.position);
     vote.word = match.word;
     vote.distance = match.distance;
+    vote.weight = match.weight;
     spaces[view.object].push_back(vote);
   }
   return spaces;
