@@ -11,6 +11,7 @@
 
 #include "pair.hpp"
 #include "pcl_clouds.hpp"
+#include "peak.hpp"
 #include "recorded_scenes.hpp"
 
 namespace sks::bench {
@@ -133,6 +134,47 @@ void shot(benchmark::State& state) {
 void cshot(benchmark::State& state) {
   describe<pcl::PointXYZRGBA, PclCshot, pcl::SHOT1344>(state, organized_scene, DescriptorType::cshot);
 }
+/// How far SHOT is from what one core can compute at most.
+void shotLimit(benchmark::State& state) {
+  // Counted in the kernels, for one neighbour: gathering 9 (and the candidates around the sphere as many), the frame's
+  // two passes 27, places in the support 75 (two inverse functions of 20 to 25 among them), the weights of five bins
+  // 40, their sums 6.
+  constexpr double operations_per_neighbor = 170;
+  // Written once and read one to three times, from the first or second level of cache: 8 numbers of a neighbour, 5 of
+  // its place, 8 of its contributions.
+  constexpr double bytes_per_neighbor = 4.0 * (8 * 3 + 5 * 2 + 8 * 2);
+  const auto cloud = recordedScene(state, unorganized_scene);
+  if (!cloud) return;
+  const PreparedScene scene(*cloud);
+  std::vector<PointGrid::Run> runs;
+  double neighbors = 0;
+  for (const Eigen::Vector3f& keypoint : scene.keypoints.positions) {
+    scene.surface.forEachNeighbor(keypoint, float(scene.settings.descriptor.radius), runs,
+                                  [&](std::uint32_t, float) { ++neighbors; });
+  }
+  const double peak = peakOperationsPerSecond();
+  for (auto _ : state) {
+    std::vector<double> times;
+    for (int round = 0; round < 15; ++round) {
+      times.push_back(milliseconds([&] {
+        benchmark::DoNotOptimize(
+            computeDescriptors(scene.surface, scene.keypoints, DescriptorType::shot, scene.settings.descriptor, 1));
+      }));
+    }
+    const double seconds = *std::min_element(times.begin(), times.end()) / 1000;
+    const double count = double(scene.keypoints.size());
+    state.counters["us_per_descriptor"] = 1e6 * seconds / count;
+    state.counters["neighbors_per_descriptor"] = neighbors / count;
+    state.counters["ns_per_neighbor"] = 1e9 * seconds / neighbors;
+    state.counters["Gflops"] = 1e-9 * operations_per_neighbor * neighbors / seconds;
+    state.counters["peak_Gflops"] = 1e-9 * peak;
+    state.counters["share_of_peak"] = operations_per_neighbor * neighbors / seconds / peak;
+    state.counters["GB_per_s_in_cache"] = 1e-9 * bytes_per_neighbor * neighbors / seconds;
+    state.SetIterationTime(seconds);
+  }
+}
+
+BENCHMARK(shotLimit)->Apply(asPair);
 BENCHMARK(shot)->Apply(asPair);
 BENCHMARK(cshot)->Apply(asPair);
 

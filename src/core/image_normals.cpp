@@ -93,17 +93,21 @@ namespace {
 
 constexpr double max_margin = 64;  // [pixel]; nearer to the camera the grid is quicker
 
-/// The first point of each row of the image, and one past the last.
-void findRowBegins(const Cloud& cloud, std::vector<std::size_t>& begins) {
-  begins.clear();
-  for (std::size_t i = 0; i < cloud.pixels.size(); ++i) {
-    while (begins.size() <= cloud.pixels[i] / cloud.columns) begins.push_back(i);
-  }
-  begins.push_back(cloud.pixels.size());
+/// The first point of a row of the image, or of the next one that has any.
+std::size_t firstOfRow(const Cloud& cloud, std::size_t row) {
+  const auto first = std::lower_bound(cloud.pixels.begin(), cloud.pixels.end(), row * cloud.columns);
+  return std::size_t(first - cloud.pixels.begin());
 }
 
-void drawRow(const Cloud& cloud, std::size_t row, std::size_t begin, std::size_t end, PositionImage& image) {
-  for (std::size_t i = begin; i < end; ++i) {
+/// Empties line `line` of the image, margins included, and puts in the points of its row.
+void drawLine(const Cloud& cloud, std::size_t line, std::size_t rows, PositionImage& image) {
+  for (auto* axis : {&image.x, &image.y, &image.z}) {
+    std::fill_n(axis->begin() + std::ptrdiff_t(line * image.stride), image.stride,
+                std::numeric_limits<float>::quiet_NaN());
+  }
+  if (line < image.margin || line >= rows + image.margin) return;
+  const std::size_t row = line - image.margin, end = firstOfRow(cloud, row + 1);
+  for (std::size_t i = firstOfRow(cloud, row); i < end; ++i) {
     const std::size_t at = image.at(row, cloud.pixels[i] - row * cloud.columns);
     image.x[at] = cloud.points[i].x();
     image.y[at] = cloud.points[i].y();
@@ -124,26 +128,22 @@ bool imageNormals(const Cloud& cloud, const SurfaceSettings& settings, int threa
       1.01 * window.focal * window.radius * camera->widest / (camera->nearest - window.radius) + window.extra;
   if (margin > max_margin) return false;
 
-  // Both kept from frame to frame; the other threads see those of this one.
-  thread_local std::vector<std::size_t> kept_begins;
-  thread_local PositionImage kept_image;
-  std::vector<std::size_t>& begins = kept_begins;
+  thread_local PositionImage kept_image;  // from frame to frame; the other threads see that of this one
   PositionImage& image = kept_image;
-  findRowBegins(cloud, begins);
-  const std::size_t rows = begins.size() - 1;
+  const std::size_t rows = cloud.pixels.back() / cloud.columns + 1;
   image.margin = std::size_t(margin) + 1;
   image.stride = cloud.columns + 2 * image.margin + PointGrid::simd_padding;
-  const std::size_t size = (rows + 2 * image.margin) * image.stride;
-  for (auto* axis : {&image.x, &image.y, &image.z}) axis->assign(size, std::numeric_limits<float>::quiet_NaN());
+  const std::size_t lines = rows + 2 * image.margin;
+  for (auto* axis : {&image.x, &image.y, &image.z}) axis->resize(lines * image.stride);
   normals.resize(cloud.size());
 #pragma omp parallel num_threads(threads)
   {
 #pragma omp for schedule(static)
-    for (std::size_t row = 0; row < rows; ++row) drawRow(cloud, row, begins[row], begins[row + 1], image);
+    for (std::size_t line = 0; line < lines; ++line) drawLine(cloud, line, rows, image);
 #pragma omp for schedule(dynamic, 4)
     for (std::size_t row = 0; row < rows; ++row) {
       HWY_DYNAMIC_DISPATCH(rowNormalsImpl)
-      (image, row, cloud.columns, window, settings.normal_min_neighbors, &normals[begins[row]]);
+      (image, row, cloud.columns, window, settings.normal_min_neighbors, normals.data() + firstOfRow(cloud, row));
     }
   }
   return true;
