@@ -22,7 +22,7 @@ constexpr double marker_lifetime = 3.0, marker_period = 1.0;  // [s]
 DetectionOutput::DetectionOutput(ros::NodeHandle& private_handle, std::function<void()> listeners_changed) {
   const ros::SubscriberStatusCallback changed = [listeners_changed = std::move(listeners_changed)](
                                                     const ros::SingleSubscriberPublisher&) { listeners_changed(); };
-  detections_ = private_handle.advertise<DetectionArray>("detections", 1, changed, changed);
+  detections_ = private_handle.advertise<DetectionArray>("detections", 10, changed, changed);
   markers_ = private_handle.advertise<visualization_msgs::MarkerArray>("markers", 1, changed, changed);
   keypoints_ = private_handle.advertise<sensor_msgs::PointCloud2>("keypoints", 1, changed, changed);
   votes_ = private_handle.advertise<sensor_msgs::PointCloud2>("votes", 1, changed, changed);

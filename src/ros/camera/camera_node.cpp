@@ -115,7 +115,8 @@ void CameraNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   diagnosed_ = now;
 
   status.summary(DiagnosticStatus::OK, textOf(camera.state));
-  if (camera.state == CameraState::streaming && rate < 0.5 * camera.device.depth_mode.rate) {
+  const bool streamed = std::exchange(streaming_, camera.state == CameraState::streaming);
+  if (streamed && streaming_ && rate < 0.5 * camera.device.depth_mode.rate) {
     status.summary(DiagnosticStatus::WARN, "frames come less than half as often as they should");
   }
   if (camera.state == CameraState::connecting) {

@@ -41,6 +41,7 @@ private:
   std::unique_ptr<diagnostic_updater::Updater> updater_;
   std::uint64_t frames_before_ = 0;
   ros::SteadyTime diagnosed_;
+  bool streaming_ = false;  // when it was diagnosed last: what began since has no rate yet
   std::unique_ptr<Camera> camera_;
   ros::SteadyTimer timer_;
 };
