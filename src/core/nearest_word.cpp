@@ -15,10 +15,10 @@ namespace {
 
 constexpr float rounding = 1e-4f;              // above the relative error of single precision distances
 constexpr std::size_t tile_blocks = 64;        // whose codes stay in the cache while a batch of queries passes
-constexpr std::size_t words_of_cluster = 256;  // about
-constexpr std::size_t clusters_visited = 64;   // about
-constexpr std::size_t candidates_kept = 256;   // of the words of clusters
-constexpr std::size_t centers_sampled = 16;    // every one of this many
+constexpr std::size_t words_of_cluster = 128;  // about
+constexpr std::size_t least_visited = 32, most_visited = 80;  // clusters, about; an eighth of them in between
+constexpr std::size_t candidates_kept = 256;                  // of the words of clusters
+constexpr std::size_t centers_sampled = 16;                   // every one of this many
 
 void checkHistograms(const DescriptorMatrix& words) {
   for (std::size_t i = 0; i < words.rows() * words.cols(); ++i) {
@@ -42,6 +42,15 @@ void dropAbove(float highest, NearestWord::Search& search) {
   }
   search.slots.resize(kept);
   search.bounds.resize(kept);
+}
+
+/// Makes of a query's lower bounds estimates, which rank words better: what the axes leave over of two histograms
+/// points the same way in bounds, but is only somewhat alike in truth. Estimates may be above the distance.
+void estimate(WordCodes::CodedQuery& query) {
+  std::int16_t& left_over = query.vector.code[code_size - 1];
+  const float square = query.vector.unit * float(left_over) * query.vector.unit * float(left_over);
+  left_over = std::int16_t(0.7f * float(left_over));
+  query.slack += 2 * 0.3f * square;
 }
 
 /// Keeps about the `kept` lowest bounds: no fewer, and ties.
@@ -159,10 +168,11 @@ void NearestWord::chooseClusters(std::size_t first, std::size_t count, Workspace
     distances[q] = &work.centers[q * centers.units.size()];
   }
   codeDistances(queries, centers, 0, centers.blocks(), distances);
+  const std::size_t visited = std::clamp(clusters_.size() / 8, least_visited, most_visited);
   for (std::size_t q = 0; q < count; ++q) {
     work.sorted.clear();
     for (std::size_t c = 0; c < clusters_.size(); c += centers_sampled) work.sorted.push_back(distances[q][c]);
-    const std::size_t rank = std::min(work.sorted.size() - 1, clusters_visited / centers_sampled);
+    const std::size_t rank = std::min(work.sorted.size() - 1, visited / centers_sampled);
     std::nth_element(work.sorted.begin(), work.sorted.begin() + std::ptrdiff_t(rank), work.sorted.end());
     const std::size_t nearest = indexOfSmallest(distances[q], centers.units.size());
     const std::size_t chosen = selectUpTo(work.sorted[rank], distances[q], centers.units.size(), work.selected.data());
@@ -201,6 +211,7 @@ void NearestWord::find(const DescriptorMatrix& queries, std::size_t first, std::
     Search& search = work.searches[i];
     search.histogram = queries.row(first + i);
     codes_.encode(search.histogram, work.projection, search.query);
+    if (!exact()) estimate(search.query);
     search.lowest_bound = search.best = std::numeric_limits<float>::infinity();
     search.slots.clear();
     search.bounds.clear();
