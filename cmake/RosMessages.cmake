@@ -6,7 +6,8 @@ set(sks_ros OFF)
 set(sks_message_dependencies)
 find_package(catkin QUIET COMPONENTS
   diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs message_generation nodelet pcl_ros pluginlib
-  rosbag roscpp sensor_msgs std_msgs std_srvs tf2_eigen tf2_ros tf2_sensor_msgs visualization_msgs)
+  rosbag roscpp sensor_msgs std_msgs std_srvs tf2_eigen tf2_msgs tf2_ros tf2_sensor_msgs
+  visualization_msgs)
 if(catkin_FOUND)
   set(sks_ros ON)
 else()

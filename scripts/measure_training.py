@@ -4,6 +4,7 @@
 detector without and during calls of its service ~train, in turns. Only a training with the result that is in use already compares
 like with like: train the data set once before. Clouds flow from a camera or a bag, or are published here from a file."""
 import argparse
+import os
 import sys
 import threading
 
@@ -66,12 +67,13 @@ def publish(cloud, topic, period):
 
 
 def summary(name, seen):
+    """Median, 95 % and maximum [ms]."""
     milliseconds = sorted(latency for latency, _ in seen)
     middle, p95 = milliseconds[len(milliseconds) // 2], milliseconds[int(0.95 * (len(milliseconds) - 1))]
     print("%-8s %4d frames: mean %6.1f  p50 %6.1f  p95 %6.1f  max %6.1f ms; codebooks %s" % (
         name, len(seen), sum(milliseconds) / len(seen), middle, p95, milliseconds[-1],
         ", ".join(sorted({codebook for _, codebook in seen}))))
-    return milliseconds[-1]
+    return middle, p95, milliseconds[-1]
 
 
 def main():
@@ -97,12 +99,12 @@ def main():
         latencies.take()
         rospy.sleep(arguments.seconds)
         without += latencies.take()
-        print(train(dataset=arguments.dataset).message)
+        print("%s (load %.1f)" % (train(dataset=arguments.dataset).message, os.getloadavg()[0]))
         during += latencies.take()
     if not without or not during:
         sys.exit("no detections came: are clouds published?")
-    longest = summary("without", without), summary("training", during)
-    print("longest frame: %.2f times that without training" % (longest[1] / longest[0]))
+    ratios = [b / a for a, b in zip(summary("without", without), summary("training", during))]
+    print("with training: p50 %.2f, p95 %.2f, longest %.2f times those without" % tuple(ratios))
 
 
 if __name__ == "__main__":
