@@ -51,7 +51,7 @@ struct StudiedKeypoints {
   std::string name;  ///< grid, sks-50 (by the share that is dropped), iss
   KeypointSettings settings;
   std::vector<StudiedPair> pairs;   ///< the same, in the same order, for each kind
-  std::vector<double> scene_times;  ///< keypoints of each scene [s], normals not counted; median of several runs
+  std::vector<double> scene_times;  ///< keypoints of each scene [s], normals not counted; median of some runs
 
   double meanTime() const;  ///< [s]
 };

@@ -18,7 +18,8 @@
 namespace sks {
 namespace {
 
-constexpr int timed_runs = 3;
+constexpr std::size_t timed_runs = 5;
+constexpr double long_run = 0.2;  // [s] what takes longer is timed once
 
 KeypointStudy emptyStudy(const DataSet& data_set, const Settings& settings) {
   KeypointStudy study;
@@ -79,13 +80,26 @@ private:
     }
   }
 
-  DescribedKeypoints describe(const Surface& surface, const KeypointSettings& kind) const {
+  DescribedKeypoints describe(const Surface& surface, Keypoints keypoints) const {
+    Descriptors descriptors =
+        computeDescriptors(surface, keypoints, DescriptorType::shot, study_.settings.descriptor, threads_);
+    return {std::move(keypoints), std::move(descriptors)};
+  }
+
+  /// @param seconds where given: median time of some runs, of one where that is long
+  Keypoints find(const Surface& surface, const KeypointSettings& kind, double* seconds = nullptr) const {
     Settings settings = study_.settings;
     settings.keypoints = kind;
+    Stopwatch stopwatch;
     Keypoints keypoints = selectedKeypoints(surface, settings, threads_);
-    Descriptors descriptors =
-        computeDescriptors(surface, keypoints, DescriptorType::shot, settings.descriptor, threads_);
-    return {std::move(keypoints), std::move(descriptors)};
+    if (seconds == nullptr) return keypoints;
+    std::vector<double> times{stopwatch.lap()};
+    while (times.size() < timed_runs && times.front() < long_run) {
+      selectedKeypoints(surface, settings, threads_);
+      times.push_back(stopwatch.lap());
+    }
+    *seconds = *percentile(times, 0.5);
+    return keypoints;
   }
 
   /// Of a training cloud, one for each kind.
@@ -93,20 +107,10 @@ private:
     std::vector<DescribedKeypoints>& kinds = objects_[entry.source];
     if (!kinds.empty()) return kinds;
     const Surface surface = prepare(entry.path, entry.kind);
-    for (const StudiedKeypoints& kind : study_.kinds) kinds.push_back(describe(surface, kind.settings));
-    return kinds;
-  }
-
-  double keypointTime(const Surface& surface, const KeypointSettings& kind) const {
-    Settings settings = study_.settings;
-    settings.keypoints = kind;
-    std::vector<double> times;
-    for (int i = 0; i < timed_runs; ++i) {
-      Stopwatch stopwatch;
-      selectedKeypoints(surface, settings, threads_);
-      times.push_back(stopwatch.lap());
+    for (const StudiedKeypoints& kind : study_.kinds) {
+      kinds.push_back(describe(surface, find(surface, kind.settings)));
     }
-    return *percentile(times, 0.5);
+    return kinds;
   }
 
   void studyScene(const Scene& scene) {
@@ -120,8 +124,9 @@ private:
     const Surface surface = prepare(scene.path, ViewKind::view);
     for (std::size_t k = 0; k < study_.kinds.size(); ++k) {
       StudiedKeypoints& kind = study_.kinds[k];
-      kind.scene_times.push_back(keypointTime(surface, kind.settings));
-      const DescribedKeypoints described = describe(surface, kind.settings);
+      double seconds = 0;
+      const DescribedKeypoints described = describe(surface, find(surface, kind.settings, &seconds));
+      kind.scene_times.push_back(seconds);
       for (const auto& [truth, reference] : pairs) {
         StudiedPair pair{scene.name, truth->object, {}, {}};
         pair.pair = comparePair(describedObject(*reference)[k], described, study_.settings.ransac, threads_);
