@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <geometry_msgs/TransformStamped.h>
+#include <pcl_ros/transforms.h>
 #include <ros/init.h>
 #include <sensor_msgs/PointCloud2.h>
 
@@ -16,6 +17,18 @@ namespace {
 
 // Markers are published again while they hold, so that they go by themselves where the node went without a word.
 constexpr double marker_lifetime = 3.0, marker_period = 1.0;  // [s]
+
+/// Publishes a cloud in the frame of the header, if somebody listens.
+void publishCloud(const ros::Publisher& publisher, const sks::Cloud& cloud, const Eigen::Isometry3d& T_target_cloud,
+                  const std_msgs::Header& header) {
+  if (publisher.getNumSubscribers() == 0) return;
+  sensor_msgs::PointCloud2 message = toMessage(cloud, header);
+  if (!message.data.empty()) {
+    const Eigen::Matrix4f T = T_target_cloud.matrix().cast<float>();
+    pcl_ros::transformPointCloud(T, sensor_msgs::PointCloud2(message), message);
+  }
+  publisher.publish(message);
+}
 
 }  // namespace
 
@@ -53,8 +66,8 @@ void DetectionOutput::publish(const FrameResult& result, bool broadcast) {
     shown_ = detections;
     publishMarkers(shown_);
   }
-  if (keypoints_.getNumSubscribers() > 0) keypoints_.publish(toMessage(result.keypoints, detections.header));
-  if (votes_.getNumSubscribers() > 0) votes_.publish(toMessage(result.votes, detections.header));
+  publishCloud(keypoints_, result.keypoints, result.T_target_cloud, detections.header);
+  publishCloud(votes_, result.votes, result.T_target_cloud, detections.header);
   if (broadcast) broadcastPoses(detections);
 }
 

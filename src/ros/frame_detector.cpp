@@ -17,9 +17,7 @@ void transform(const Eigen::Isometry3d& T_target_cloud, sks::Detection& detectio
   detection.T_scene_box = T_target_cloud * detection.T_scene_box;
 }
 
-sks::Cloud pointsCloud(const Eigen::Isometry3d& T_target_cloud, std::vector<Eigen::Vector3f> points) {
-  const Eigen::Isometry3f T = T_target_cloud.cast<float>();
-  for (Eigen::Vector3f& point : points) point = T * point;
+sks::Cloud pointsCloud(std::vector<Eigen::Vector3f> points) {
   sks::Cloud cloud;
   cloud.width = std::uint32_t(points.size());
   cloud.points = std::move(points);
@@ -62,13 +60,13 @@ FrameResult FrameDetector::detect(const sensor_msgs::PointCloud2& message, const
   answer.header = answerHeader(message.header, settings);
   answer.codebook = nameWithChecksum(detector->codebook());
   // looked up last: while detecting the transform had time to arrive
-  const Eigen::Isometry3d T_target_cloud = transforms_.lookup(
-      answer.header.frame_id, withoutSlash(message.header.frame_id), message.header.stamp, settings.tf_timeout);
-  result.keypoints = pointsCloud(T_target_cloud, std::move(inspection.keypoints));
-  result.votes = pointsCloud(T_target_cloud, std::move(inspection.votes));
+  result.T_target_cloud = transforms_.lookup(answer.header.frame_id, withoutSlash(message.header.frame_id),
+                                             message.header.stamp, settings.tf_timeout);
+  result.keypoints = pointsCloud(std::move(inspection.keypoints));
+  result.votes = pointsCloud(std::move(inspection.votes));
   result.votes.colors = voteColors(inspection, detector->codebook().objects);
   for (sks::Detection& detection : found) {
-    transform(T_target_cloud, detection);
+    transform(result.T_target_cloud, detection);
     answer.detections.push_back(toMessage(detection));
   }
   return result;

@@ -4,6 +4,7 @@
 #include <sensor_msgs/PointCloud2.h>
 #include <sks_detector/DetectionArray.h>
 #include <std_msgs/Header.h>
+#include <Eigen/Geometry>
 
 #include <sks_detector/cloud.hpp>
 
@@ -13,11 +14,12 @@
 
 namespace sks_detector {
 
-/// What one cloud led to, in ~target_frame.
+/// What one cloud led to.
 struct FrameResult {
-  DetectionArray detections;
-  sks::Cloud keypoints;  ///< empty where they were not asked for, like the votes
-  sks::Cloud votes;      ///< in the colours of their objects
+  DetectionArray detections;  ///< in ~target_frame
+  sks::Cloud keypoints;       ///< in the cloud's frame; empty where they were not asked for, like the votes
+  sks::Cloud votes;           ///< in the cloud's frame, in the colours of their objects
+  Eigen::Isometry3d T_target_cloud = Eigen::Isometry3d::Identity();
 };
 
 /// From a cloud's message to detections, with the detector that is in the slot at the moment. Safe to use from several

@@ -9,6 +9,7 @@ import rostest
 import tf2_msgs.msg
 import tf2_ros
 from geometry_msgs.msg import TransformStamped
+from sensor_msgs.msg import PointCloud2
 
 import support
 import synthetic
@@ -60,6 +61,22 @@ class FramesTest(unittest.TestCase):
         for frame in ("base_link", "/base_link"):
             with self.node(target_frame=frame):
                 self.expect_in_base(self.answer(synthetic.scene()))
+
+    def test_shows_keypoints_and_votes_in_the_target_frame(self):
+        clouds = [support.Recorder("/detector/" + name, PointCloud2) for name in ("keypoints", "votes")]
+        points = synthetic.scene()
+        with self.node(target_frame="base_link"):
+            support.wait_for(lambda: all(c.connections() for c in clouds), "connections")
+            stamp = self.answer(points).header.stamp
+            corners = synthetic.apply(T_BASE_CAMERA, points[np.isfinite(points).all(-1)])
+            for cloud in clouds:
+                message = cloud.wait_for_stamp(stamp)
+                self.assertEqual(message.header.frame_id, "base_link")
+                shown = support.points_of(message)
+                self.assertGreater(len(shown), 50)
+                inside = (shown > corners.min(0) - 0.1) & (shown < corners.max(0) + 0.1)
+                self.assertGreater(inside.all(1).mean(), 0.9)
+                cloud.close()
 
     def test_answers_empty_and_says_why_where_the_transform_is_missing(self):
         with self.node(target_frame="nowhere", tf_timeout=0.1) as node:
