@@ -199,6 +199,9 @@ TEST(Detector, CountsAndOrdersWhatItDoes) {
   sks::Settings settings;
   settings.keypoints.discard = 0.25;
   const sks::Cloud scene = clutteredScene();
+  EXPECT_GT(sks::Detector(twoObjects(), settings).detect(scene).counts.votes,
+            sks::Detector(twoObjects(), settings).detect(scene).counts.descriptors);  // of other objects too
+  settings.verification.ambiguity = 1;
   const auto result = sks::Detector(twoObjects(), settings).detect(scene);
   const sks::StageCounts& counts = result.counts;
   EXPECT_EQ(counts.input_points, scene.size());

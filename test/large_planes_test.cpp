@@ -24,7 +24,8 @@ TEST(LargePlanes, FindsTableAndWallWithTheirExtents) {
   EXPECT_NEAR(planeExtentAt(planes, {0.3f, -0.2f, 1.49f}, to_camera), 0.7f, 0.15f);
   EXPECT_NEAR(planeExtentAt(planes, {0.3f, 0.29f, 1.2f}, up), 0.4f, 0.1f);
   EXPECT_EQ(planeExtentAt(planes, {0.3f, 0.29f, 1.2f}, to_camera), 0);  // at the table, but not of it
-  EXPECT_EQ(planeExtentAt(planes, {0.3f, 0, 1.0f}, to_camera), 0);      // in the air
+  // In the air. Faces of the object may be found too, and planes have no end.
+  EXPECT_LT(planeExtentAt(planes, {0.3f, 0, 1.0f}, to_camera), 0.1f);
 }
 
 TEST(LargePlanes, OfRoundThingsAreSmall) {

@@ -6,6 +6,8 @@
 #include <optional>
 #include <tuple>
 
+#include <sks_detector/refinement.hpp>
+
 #include "core/pose_candidates.hpp"
 #include "core/projective_refinement.hpp"
 #include "core/vote_density.hpp"
@@ -16,6 +18,15 @@ namespace {
 constexpr double area_unit = 1e-4;       // [m^2] areas enter the evidence in cm^2
 constexpr double prior_area = 0.25e-4;   // [m^2] so that a share of next to nothing is next to nothing
 constexpr double largest_claimed = 0.5;  // of the confirming points; else a hypothesis claims none itself
+
+constexpr double plausible_share = 0.5;  // of the evidence that scores 0.5; what has less is not worth the last rounds
+
+/// Of ICP with nearest pairs, for poses that are a fraction of a millimetre off.
+RefinementSettings lastRounds(RefinementSettings settings) {
+  settings.iterations = (settings.iterations + 1) / 2;
+  settings.start_distance = settings.end_distance;
+  return settings;
+}
 
 /// A hypothesis and the part of the scene that it explains.
 struct Examined {
@@ -101,30 +112,48 @@ Verifier::Verifier(std::shared_ptr<const Codebook> codebook) : codebook_(std::mo
 std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>& spaces, const Surface& surface,
                                             const Settings& settings, int threads) const {
   const SceneView scene(surface, settings);
-  const std::vector<PoseCandidate> candidates = poseCandidates(*codebook_, weights_, spaces, scene, settings, threads);
+  const std::vector<PoseCandidate> candidates =
+      poseCandidates(*codebook_, weights_, spaces, scene, settings, threads);
   std::vector<VoteDensity> densities;
   for (const auto& votes : spaces) densities.emplace_back(votes, settings.voting.bandwidth);
+  const auto examine = [&](Hypothesis hypothesis) {
+    const TrainingView& view = codebook_->views[hypothesis.view];
+    hypothesis.T_scene_box = hypothesis.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
+    hypothesis.box_size = view.extent().cast<double>();
+    const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();
+    hypothesis.density = densities[hypothesis.object].at(center);
+    hypothesis.votes = densities[hypothesis.object].count(center);
+    PoseEvidence evidence =
+        examinePose(view, weights_[hypothesis.view], scene, settings, hypothesis.T_scene_model);
+    hypothesis.evidence = evidenceOf(evidence, hypothesis.density);
+    return Examined{std::move(hypothesis), std::move(evidence.partners)};
+  };
 
   std::vector<Examined> examined(candidates.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const PoseCandidate& candidate = candidates[i];
-    const TrainingView& view = codebook_->views[candidate.view];
-    Hypothesis& hypothesis = examined[i].hypothesis;
+    Hypothesis hypothesis;
     hypothesis.object = candidate.object;
     hypothesis.view = candidate.view;
-    hypothesis.T_scene_model = refineAlongRays(view, scene, settings.refinement, candidate.T_scene_model);
-    hypothesis.T_scene_box = hypothesis.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
-    hypothesis.box_size = view.extent().cast<double>();
-    const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();
-    hypothesis.density = densities[candidate.object].at(center);
-    hypothesis.votes = densities[candidate.object].count(center);
-    PoseEvidence evidence = examinePose(view, weights_[candidate.view], scene, settings, hypothesis.T_scene_model);
-    hypothesis.evidence = evidenceOf(evidence, hypothesis.density);
-    examined[i].partners = std::move(evidence.partners);
+    hypothesis.T_scene_model = refineAlongRays(codebook_->views[candidate.view], scene, settings.refinement,
+                                               candidate.T_scene_model);
+    examined[i] = examine(std::move(hypothesis));
   }
   std::sort(examined.begin(), examined.end(), better);
   examined = suppressNonMaxima(std::move(examined), *codebook_, settings);
+
+  const double plausible = plausible_share * settings.verification.half_evidence;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < examined.size(); ++i) {
+    Hypothesis hypothesis = examined[i].hypothesis;
+    if (hypothesis.evidence < plausible) continue;
+    const TrainingView& view = codebook_->views[hypothesis.view];
+    hypothesis.T_scene_model = refinePose(view.surface_points, view.surface_normals, surface,
+                                          lastRounds(settings.refinement), hypothesis.T_scene_model);
+    examined[i] = examine(std::move(hypothesis));
+  }
+  std::sort(examined.begin(), examined.end(), better);
   resolveConflicts(examined, surface, float(settings.verification.support_distance));
   std::sort(examined.begin(), examined.end(), better);
 

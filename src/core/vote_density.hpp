@@ -27,12 +27,12 @@ public:
     return density;
   }
 
-  /// Votes within the bandwidth of a place: their weights, rounded.
+  /// Votes within the bandwidth of a place, whatever they weigh.
   std::uint32_t count(const Eigen::Vector3f& place) const {
-    double votes = 0;
+    std::uint32_t votes = 0;
     std::vector<PointGrid::Run> runs;
-    grid_.forEachNeighbor(place, bandwidth_, runs, [&](std::uint32_t j, float) { votes += weights_[j]; });
-    return std::uint32_t(std::lround(votes));
+    grid_.forEachNeighbor(place, bandwidth_, runs, [&](std::uint32_t, float) { ++votes; });
+    return votes;
   }
 
 private:
