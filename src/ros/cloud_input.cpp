@@ -116,8 +116,8 @@ void CloudInput::updateSubscription() {
     if (needed && !subscriber_) last_sign_of_life_ = Clock::now();
   }
   if (needed && !subscriber_) {
-    subscriber_ = private_handle_.subscribe<sensor_msgs::PointCloud2>("points", subscription_queue, &CloudInput::receive,
-                                                                      this, ros::TransportHints().tcpNoDelay());
+    subscriber_ = private_handle_.subscribe<sensor_msgs::PointCloud2>(
+        "points", subscription_queue, &CloudInput::receive, this, ros::TransportHints().tcpNoDelay());
   } else if (!needed && subscriber_) {
     subscriber_.shutdown();
     subscriber_ = ros::Subscriber();

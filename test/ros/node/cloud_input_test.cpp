@@ -138,9 +138,7 @@ TEST_F(CloudInputTest, SilenceGrowsUntilTheNextCloud) {
 
 TEST_F(CloudInputTest, StopLetsAllGoForGood) {
   auto frame = std::async(std::launch::async, [&] { return input_.take().has_value(); });
-  auto next = std::async(std::launch::async, [&] {
-    return errorOf(ErrorCode::bad_data, [&] { input_.next(1000); });
-  });
+  auto next = std::async(std::launch::async, [&] { return errorOf(ErrorCode::bad_data, [&] { input_.next(1000); }); });
   ASSERT_TRUE(connects());
   input_.stop();
   EXPECT_FALSE(frame.get());

@@ -37,8 +37,8 @@ TEST_F(ParametersTest, AreReadFromGroups) {
   handle_.setParam("always_on", true);
   const ParameterReading reading = readParameters(handle_);
   EXPECT_THAT(reading.errors, IsEmpty());
-  EXPECT_THAT(reading.given, UnorderedElementsAre("always_on", "keypoints.discard", "target_frame", "tf_timeout",
-                                                  "voting.min_votes"));
+  EXPECT_THAT(reading.given,
+              UnorderedElementsAre("always_on", "keypoints.discard", "target_frame", "tf_timeout", "voting.min_votes"));
   EXPECT_EQ(reading.configuration.detector.keypoints.discard, 0.25);
   EXPECT_EQ(reading.configuration.detector.voting.min_votes, 4);
   EXPECT_EQ(reading.configuration.node.tf_timeout, 1);
