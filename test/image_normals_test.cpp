@@ -51,7 +51,9 @@ TEST(ImageNormals, AreTheSameForAnyThreads) {
   const sks::Cloud cloud = sks::sanitize(objectImage(), {});
   const auto one = normalsOf(cloud, 1), three = normalsOf(cloud, 3);
   for (std::size_t i = 0; i < one.size(); ++i) {
-    if (one[i].allFinite()) EXPECT_EQ(one[i], three[i]);
+    if (one[i].allFinite()) {
+      EXPECT_EQ(one[i], three[i]);
+    }
   }
 }
 

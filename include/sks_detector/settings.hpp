@@ -190,7 +190,7 @@ struct VerificationSettings {
   double support_distance = 0.008;
   double support_angle = 0.45;
   double occlusion_distance = 0.015;
-  double half_evidence = 4.1;
+  double half_evidence = 4.4;
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {

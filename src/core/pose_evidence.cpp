@@ -9,7 +9,6 @@ namespace {
 
 constexpr float weight_radius = 0.02f;      // [m] the scale of the keypoints' local surfaces
 constexpr float grazing = 0.17f;            // cosine; surfaces turned away by more than 80 degrees are hardly measured
-constexpr std::size_t most_points = 1500;   // of a stored surface that are examined
 constexpr std::size_t glance_points = 80;
 constexpr float glance_distance = 0.015f;   // [m] rough poses are that far off
 constexpr float glance_agreement = 0.7f;    // cosine, about 45 degrees
@@ -66,7 +65,7 @@ std::vector<float> distinctiveness(const TrainingView& view) {
 }
 
 PoseEvidence examinePose(const TrainingView& view, const std::vector<float>& weights, const SceneView& scene,
-                         const Settings& settings, const Eigen::Isometry3d& T_scene_model) {
+                         const Settings& settings, const Eigen::Isometry3d& T_scene_model, std::size_t most_points) {
   const VerificationSettings& verification = settings.verification;
   const std::size_t stride = view.surface_points.size() / most_points + 1;
   const double area = double(stride) * settings.training.surface_resolution * settings.training.surface_resolution;

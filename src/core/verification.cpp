@@ -19,6 +19,7 @@ constexpr double area_unit = 1e-4;       // [m^2] areas enter the evidence in cm
 constexpr double prior_area = 0.25e-4;   // [m^2] so that a share of next to nothing is next to nothing
 constexpr double largest_claimed = 0.5;  // of the confirming points; else a hypothesis claims none itself
 
+constexpr std::size_t first_points = 400, last_points = 1500;  // of a surface, examined before and after the choice
 constexpr double plausible_share = 0.5;  // of the evidence that scores 0.5; what has less is not worth the last rounds
 
 /// Of ICP with nearest pairs, for poses that are a fraction of a millimetre off.
@@ -116,7 +117,7 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
       poseCandidates(*codebook_, weights_, spaces, scene, settings, threads);
   std::vector<VoteDensity> densities;
   for (const auto& votes : spaces) densities.emplace_back(votes, settings.voting.bandwidth);
-  const auto examine = [&](Hypothesis hypothesis) {
+  const auto examine = [&](Hypothesis hypothesis, std::size_t most_points) {
     const TrainingView& view = codebook_->views[hypothesis.view];
     hypothesis.T_scene_box = hypothesis.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
     hypothesis.box_size = view.extent().cast<double>();
@@ -124,7 +125,7 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
     hypothesis.density = densities[hypothesis.object].at(center);
     hypothesis.votes = densities[hypothesis.object].count(center);
     PoseEvidence evidence =
-        examinePose(view, weights_[hypothesis.view], scene, settings, hypothesis.T_scene_model);
+        examinePose(view, weights_[hypothesis.view], scene, settings, hypothesis.T_scene_model, most_points);
     hypothesis.evidence = evidenceOf(evidence, hypothesis.density);
     return Examined{std::move(hypothesis), std::move(evidence.partners)};
   };
@@ -138,7 +139,7 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
     hypothesis.view = candidate.view;
     hypothesis.T_scene_model = refineAlongRays(codebook_->views[candidate.view], scene, settings.refinement,
                                                candidate.T_scene_model);
-    examined[i] = examine(std::move(hypothesis));
+    examined[i] = examine(std::move(hypothesis), first_points);
   }
   std::sort(examined.begin(), examined.end(), better);
   examined = suppressNonMaxima(std::move(examined), *codebook_, settings);
@@ -151,7 +152,7 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
     const TrainingView& view = codebook_->views[hypothesis.view];
     hypothesis.T_scene_model = refinePose(view.surface_points, view.surface_normals, surface,
                                           lastRounds(settings.refinement), hypothesis.T_scene_model);
-    examined[i] = examine(std::move(hypothesis));
+    examined[i] = examine(std::move(hypothesis), last_points);
   }
   std::sort(examined.begin(), examined.end(), better);
   resolveConflicts(examined, surface, float(settings.verification.support_distance));
