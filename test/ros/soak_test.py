@@ -10,18 +10,21 @@ import rostest
 
 class SoakTest(unittest.TestCase):
     def test_nothing_is_lost_and_nothing_grows(self):
-        run = subprocess.run(["rosrun", "sks_detector", "soak", "--minutes", "0.3", "--warmup", "10", "--growth", "20"],
+        run = subprocess.run(["rosrun", "sks_detector", "soak", "--minutes", "0.3", "--warmup", "10", "--growth", "20",
+                              "--lost", "10"],
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
         self.assertEqual(run.returncode, 0, run.stdout)
         sent, received, processed, dropped = map(int, re.search(
             r"(\d+) sent, (\d+) received, (\d+) processed, (\d+) dropped", run.stdout).groups())
-        self.assertEqual((sent, received), (280, 280))
-        self.assertEqual(processed + dropped, sent)
+        self.assertEqual(sent, 280)
+        self.assertGreaterEqual(received, 270)
+        self.assertEqual(processed + dropped, received)
         self.assertIn("clouds of 640x480", run.stdout)
         self.assertIn("largest difference 0 ns", run.stdout)
 
     def test_fails_where_memory_grows_too_much(self):
-        run = subprocess.run(["rosrun", "sks_detector", "soak", "--minutes", "0.03", "--warmup", "1", "--growth", "-100"],
+        run = subprocess.run(["rosrun", "sks_detector", "soak", "--minutes", "0.03", "--warmup", "1", "--growth", "-100",
+                              "--lost", "10"],
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
         self.assertEqual(run.returncode, 1, run.stdout)
         self.assertIn("soak: memory grows by more than -100 %", run.stdout)
