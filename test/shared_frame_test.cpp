@@ -43,7 +43,7 @@ Codebook twoViews(const std::string& frame) {
 std::vector<Vote> votesFor(const Codebook& book, const std::vector<std::uint32_t>& words, const Eigen::Isometry3f& T) {
   std::vector<Vote> votes;
   for (const std::uint32_t word : words) {
-    votes.push_back({T.translation(), T.linear(), T * book.words[word].position, word, 0});
+    votes.push_back({T.translation(), T.linear(), T * book.words[word].position, word, 0, 1});
   }
   return votes;
 }
