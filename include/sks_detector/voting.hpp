@@ -18,7 +18,7 @@ struct Vote {
   Eigen::Vector3f keypoint;  ///< p_s [m], scene frame
   std::uint32_t word;        ///< index into Codebook::words
   float distance;            ///< chi squared distance of the match
-  float weight;              ///< of the match
+  float weight = 1;          ///< of the match
 };
 
 /// One Hough space per object: votes[object], in the order of the matches.
