@@ -3,9 +3,12 @@
 #ifdef SKS_EXECUTABLE  // not where the command line is left out of the build
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
-#include <thread>
+#include <cstdlib>
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -294,23 +297,32 @@ TEST_F(CommandLine, FailedDetectionWritesNoJson) {
   EXPECT_FALSE(std::filesystem::exists(path("found.json")));
 }
 
+// A terminal of the test's own tells when the training has begun: only there does a bar show its progress.
 TEST_F(CommandLine, InterruptedTrainingLeavesNothing) {
   std::string entries = "training:\n";
-  for (int i = 0; i < 500; ++i) entries += "  - {object: bumps, cloud: bumps.pcd, kind: view}\n";
+  for (int i = 0; i < 2000; ++i) entries += "  - {object: bumps, cloud: bumps.pcd, kind: view}\n";
   writeDataSet(entries);
   const std::size_t files = folder_.fileCount();
+  const int terminal = ::posix_openpt(O_RDWR | O_NOCTTY);
+  ASSERT_TRUE(terminal >= 0 && ::grantpt(terminal) == 0 && ::unlockpt(terminal) == 0);
+  const std::string name = ::ptsname(terminal);
   const pid_t child = ::fork();
   if (child == 0) {
-    ::close(STDERR_FILENO);
+    ::dup2(::open(name.c_str(), O_RDWR | O_NOCTTY), STDERR_FILENO);
     ::execl(SKS_EXECUTABLE, "sks", "train", "-d", path("toys.yaml").c_str(), "-o", path("toys.sks").c_str(), nullptr);
     ::_exit(127);
   }
   ASSERT_GT(child, 0);
-  std::this_thread::sleep_for(std::chrono::milliseconds(700));
+  std::string shown;
+  char block[256];
+  for (ssize_t size = 1; size > 0 && shown.find("/2000") == std::string::npos; shown.append(block, size)) {
+    size = std::max<ssize_t>(::read(terminal, block, sizeof(block)), 0);
+  }
   ::kill(child, SIGINT);
   int status = 0;
   ASSERT_EQ(::waitpid(child, &status, 0), child);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status;
+  ::close(terminal);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status << ": " << shown;
   EXPECT_EQ(folder_.fileCount(), files);
 }
 
