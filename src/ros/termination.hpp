@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <csignal>
-
-#include <ros/init.h>
-
 namespace sks_detector {
 
-/// Lets SIGTERM end the node as Ctrl-C does, and not on the spot. To be called once ROS has been started: a request to
-/// shut down that comes before is forgotten.
-inline void shutDownOnTermination() {
-  std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
-}
+/// Lets SIGINT (Ctrl-C), SIGTERM and `rosnode kill` end spinUntilTermination() instead of shutting ROS down at once:
+/// what must speak to end well, like the bonds of nodelets, still can. To be called once a node handle has started ROS,
+/// which was initialised with ros::init_options::NoSigintHandler.
+void handleTermination();
+
+/// Calls the callbacks of the global queue until the process is to end, never in the middle of one.
+void spinUntilTermination();
 
 }  // namespace sks_detector

@@ -17,13 +17,22 @@ import synthetic
 from sks_detector.msg import DetectionArray, Status
 
 
+OURS = ["sks_detector", "nodelet_manager"]
+NODELETS = ["nodelet", "nodelet", "manager"]
+
+
+def run(*command):
+    """A process whose output is kept."""
+    return subprocess.Popen(["rosrun", *command], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                            universal_newlines=True)
+
+
 class Manager:
     """A nodelet manager in a process of its own."""
 
-    def __init__(self, name):
+    def __init__(self, name, command=OURS):
         self.name = name
-        self.process = subprocess.Popen(["rosrun", "nodelet", "nodelet", "manager", "__name:=" + name],
-                                        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+        self.process = run(*command, "__name:=" + name)
         self._load = self._service("load_nodelet", NodeletLoad)
         self._unload = self._service("unload_nodelet", NodeletUnload)
         self._list = self._service("list", NodeletList)
@@ -66,8 +75,8 @@ class ManagerTest(unittest.TestCase):
         answer = support.answer(self.source, support.cloud_message(synthetic.scene()), detections)
         self.assertEqual(len(answer.detections), 2)
 
-    def expect_clean_end(self):
-        status, output = self.manager.end()
+    def expect_clean_end(self, how=signal.SIGINT):
+        status, output = self.manager.end(how)
         self.assertEqual(status, 0, output)
         self.expect_no_trouble(output)
 
@@ -111,19 +120,24 @@ class ManagerTest(unittest.TestCase):
             answer.close()
         self.expect_clean_end()
 
-    def test_clears_its_markers_when_it_is_unloaded(self):
+    def expect_cleared_markers(self, when):
         self.manager.load("detector")
         markers = support.Recorder("/detector/markers", MarkerArray)
         detections = support.Recorder("/detector/detections", DetectionArray)
         self.expect_answer(detections)
         detections.close()
         shown = markers.wait_for(lambda m: len(m.markers) == 7)
-        # a manager that is ended as a whole lets nobody speak: then rviz drops them after their lifetime
-        self.assertTrue(all(0 < m.lifetime.to_sec() <= 5 for m in shown.markers[1:]))
-        self.manager.unload("detector")
+        self.assertTrue(all(0 < m.lifetime.to_sec() <= 5 for m in shown.markers[1:]), "they stay if the node is killed")
+        when()
         support.wait_for(lambda: [m.action for m in markers.messages[-1].markers] == [Marker.DELETEALL], "the clearing")
         markers.close()
+
+    def test_clears_its_markers_when_it_is_unloaded(self):
+        self.expect_cleared_markers(lambda: self.manager.unload("detector"))
         self.expect_clean_end()
+
+    def test_clears_its_markers_when_the_manager_is_interrupted(self):
+        self.expect_cleared_markers(self.expect_clean_end)
 
     def test_ends_cleanly_while_clouds_flow(self):
         self.manager.load("detector")
@@ -147,6 +161,34 @@ class ManagerTest(unittest.TestCase):
         self.manager.unload("detector")
         self.assertEqual(self.manager.nodelets(), [])
         self.expect_clean_end()
+
+    def test_ends_cleanly_whenever_it_is_interrupted(self):
+        """Together with `nodelet load`, as by Ctrl-C in a launch."""
+        self.manager.end()
+        rospy.set_param("/detector/codebook", support.CODEBOOK)
+        for delay in (0.1, 0.25, 0.4, 0.55, 0.7, 0.9, 1.2):
+            self.manager = Manager("nodelets")
+            loader = run("nodelet", "nodelet", "load", "sks_detector/DetectorNodelet", "nodelets", "__name:=detector")
+            time.sleep(delay)  # the moment is what is tested
+            loader.send_signal(signal.SIGINT)
+            self.expect_clean_end()
+            self.expect_no_trouble(loader.communicate(timeout=support.PATIENCE)[0])
+
+    def test_ends_cleanly_when_it_is_terminated(self):
+        self.manager.load("detector")
+        self.expect_clean_end(signal.SIGTERM)
+
+    def test_ends_cleanly_by_rosnode_kill(self):
+        self.manager.load("detector")
+        self.assertEqual(rosnode.kill_nodes(["/nodelets"])[0], ["/nodelets"])
+        output, _ = self.manager.process.communicate(timeout=support.PATIENCE)
+        self.assertEqual(self.manager.process.returncode, 0, output)
+        self.expect_no_trouble(output)
+
+    def test_ends_cleanly_in_the_manager_of_the_package_nodelet(self):
+        self.manager.end()
+        self.manager = Manager("nodelets", NODELETS)
+        self.test_ends_cleanly_while_clouds_flow()
 
     def test_detector_node_ends_cleanly_when_it_is_terminated(self):
         node = support.Node("terminated", {"codebook": support.CODEBOOK})
