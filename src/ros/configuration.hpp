@@ -20,6 +20,8 @@ struct Configuration {
 const std::vector<sks::SettingInfo>& parameterInfos();
 /// Null for an unknown key.
 const sks::SettingInfo* findParameter(const std::string& key);
+/// Whether a parameter is one of NodeSettings, and not one of the detector's.
+bool isNodeSetting(const std::string& key);
 
 /// The value of a parameter as text that setParameter() takes back unchanged.
 /// @throws sks::Error(bad_usage) for an unknown key

@@ -30,8 +30,8 @@ class ShutdownTest(unittest.TestCase):
             process.kill()
         self.assertEqual(process.returncode, 0, output)
         self.assertIn('unknown parameter /tested/widht is ignored: did you mean /tested/width?', output)
-        self.assertIn('parameter /tested/rate: out of range: 1 to 1000 [Hz]; the default is used', output)
-        self.assertIn('parameter /tested/loop: expected true or false; the default is used', output)
+        self.assertIn('parameter /tested/rate: rate = -5 is out of range: 1 to 1000 [Hz]; the default is used', output)
+        self.assertIn('parameter /tested/loop: loop = maybe: expected true or false; the default is used', output)
         self.assertIn('it has no mode of 640x240 at 30 Hz: the nearest, 640x480 at 30 Hz, is used', output)
         for trouble in ('terminate', 'abort', 'boost::', 'class_loader'):
             self.assertNotIn(trouble, output)
