@@ -56,16 +56,12 @@ class DetectorProcess:
 class ServicesTest(unittest.TestCase):
     """Base of the tests of the services; each class has a detector and folders, which hold the shared test data."""
 
-    parameters = {"detection/threshold": 0.3}  # what is found is asked here, not how sure it is
-
     @classmethod
     def setUpClass(cls):
         cls.folder = os.path.realpath(tempfile.mkdtemp(prefix="sks_services_"))
         shutil.copytree(support.DATA, os.path.join(cls.folder, "datasets"))
         os.mkdir(os.path.join(cls.folder, "codebooks"))
         shutil.copy(support.CODEBOOK, os.path.join(cls.folder, "codebooks"))
-        for key, value in cls.parameters.items():
-            rospy.set_param("/detector/" + key, value)
         cls.node = DetectorProcess(cls.folder)
         cls.status = support.Recorder("/detector/status", Status)
         cls.source = support.CloudSource("/points")
