@@ -10,7 +10,9 @@
 namespace sks_detector {
 namespace {
 
-// The newest cloud wins here, not in the subscription: what is dropped there is not counted.
+// The newest cloud wins in receive(), which only takes pointers: this queue delays nothing. With one place in it roscpp
+// drops clouds that nobody counts, 3 of 120 at 30 Hz of 640x480 on a busy machine, and gaps in header.seq do not tell:
+// nodelets in one manager, and bags that are played, do not number anew.
 constexpr std::uint32_t subscription_queue = 4;
 
 }  // namespace
