@@ -25,7 +25,7 @@ endfunction()
 
 sks_find_package(Eigen3 libeigen3-dev)
 sks_find_package(PCL libpcl-dev COMPONENTS common io search kdtree features keypoints
-  sample_consensus segmentation)
+  sample_consensus segmentation filters registration recognition)
 sks_find_package(OpenMP libgomp1 COMPONENTS CXX)
 sks_find_package(yaml-cpp libyaml-cpp-dev)
 sks_find_package(nlohmann_json nlohmann-json3-dev)

@@ -38,6 +38,13 @@ enum class ClassBalance {
   codewords  ///< by density over the object's codewords: who has more of them catches more votes by chance
 };
 
+/// What the density of one vote counts, for each object.
+std::vector<double> voteStrengths(const Codebook& codebook, ClassBalance balance);
+
+/// Objects with a strength above 0, strongest first, each with its share of all strengths; ties by name.
+std::vector<Classification::Candidate> rankedCandidates(const std::vector<std::string>& objects,
+                                                        const std::vector<double>& strengths);
+
 /// Classifies isolated objects by the strongest hypothesis: no RANSAC, no verification, since another shape of the same
 /// class fits no rigid pose. Immutable: classify() may be called from several threads. Same cloud, same result, for any
 /// number of threads.

@@ -11,10 +11,8 @@
 #include "core/stopwatch.hpp"
 
 namespace sks {
-namespace {
 
-/// What the density of one vote counts, for each object.
-std::vector<double> voteStrength(const Codebook& codebook, ClassBalance balance) {
+std::vector<double> voteStrengths(const Codebook& codebook, ClassBalance balance) {
   std::vector<double> words(codebook.objects.size(), 0);
   for (const Codeword& word : codebook.words) words[codebook.views[word.view].object] += 1;
   std::vector<double> strength(words.size(), 1);
@@ -23,12 +21,13 @@ std::vector<double> voteStrength(const Codebook& codebook, ClassBalance balance)
   return strength;
 }
 
-std::vector<Classification::Candidate> ranked(const Codebook& codebook, const std::vector<double>& strengths) {
+std::vector<Classification::Candidate> rankedCandidates(const std::vector<std::string>& objects,
+                                                        const std::vector<double>& strengths) {
   double sum = 0;
   for (const double strength : strengths) sum += strength;
   std::vector<Classification::Candidate> candidates;
   for (std::size_t i = 0; i < strengths.size(); ++i) {
-    if (strengths[i] > 0) candidates.push_back({codebook.objects[i], strengths[i] / sum});
+    if (strengths[i] > 0) candidates.push_back({objects[i], strengths[i] / sum});
   }
   std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) {
     return std::make_tuple(-a.score, std::cref(a.object)) < std::make_tuple(-b.score, std::cref(b.object));
@@ -36,13 +35,11 @@ std::vector<Classification::Candidate> ranked(const Codebook& codebook, const st
   return candidates;
 }
 
-}  // namespace
-
 Classifier::Classifier(std::shared_ptr<const Codebook> codebook, const Settings& settings, ClassBalance balance)
     : codebook_(std::move(codebook)),
       settings_(settingsFor(*codebook_, settings)),
       matcher_(codebook_->descriptors),
-      strength_(voteStrength(*codebook_, balance)) {}
+      strength_(voteStrengths(*codebook_, balance)) {}
 
 Classification Classifier::classify(const Cloud& cloud, ViewKind kind) const {
   Classification result;
@@ -58,7 +55,7 @@ Classification Classifier::classify(const Cloud& cloud, ViewKind kind) const {
   for (const auto& [object, maximum] : maxima) {
     strengths[object] = std::max(strengths[object], strength_[object] * maximum.density);
   }
-  result.candidates = ranked(*codebook_, strengths);
+  result.candidates = rankedCandidates(codebook_->objects, strengths);
   result.counts.hypotheses = maxima.size();
   result.times.voting += stage.lap();
   result.times.total = total.lap();

@@ -18,7 +18,7 @@ namespace {
 
 struct Options {
   std::string dataset;
-  std::string method = "sks";
+  MethodOption method;
   CodebookOptions codebook;
   SettingsOptions settings;
   JsonOption json;
@@ -40,10 +40,10 @@ void warnOfUntrained(const DataSet& data_set, const std::vector<std::string>& tr
   }
 }
 
-void run(const Options& options) {
+void run(Options& options) {
   std::shared_ptr<const Codebook> codebook = options.codebook.read();
   Settings settings = startingSettings(codebook.get());
-  applyClassificationMethod(options.method, options.settings, settings);
+  options.method.applyForIsolatedObjects(options.settings, settings);
   const DataSet data_set = loadDataSet(options.dataset);
   for (const std::string& warning : data_set.warnings) warn(warning);
   options.json.check();
@@ -53,14 +53,13 @@ void run(const Options& options) {
   if (!codebook) codebook = options.codebook.train(data_set, settings, bar.callback());
   bar.clear();
   warnOfUntrained(data_set, codebook->objects);
-  const bool published = options.method == "sks-paper";
-  const Classifier classifier(codebook, settings, published ? ClassBalance::none : ClassBalance::codewords);
-  const ViewKind kind = testKind(*codebook);
-  const auto classify = [&](const Cloud& cloud) { return classifier.classify(cloud, kind); };
+  const ClassifyFunction classify = options.method.classifyFunction(codebook, settings);
   const ClassificationEvaluation evaluation =
-      evaluateTests(data_set, classify, options.method, settings, bar.callback());
+      evaluateTests(data_set, classify, options.method.name(), settings, bar.callback());
   bar.clear();
-  options.json.write(classificationJson(evaluation));
+  nlohmann::json json = classificationJson(evaluation);
+  options.method.addSettings(json["settings"]);
+  options.json.write(json);
   if (!options.json.onStdout()) print(classificationTable(evaluation));
 }
 
@@ -73,9 +72,7 @@ void addClassify(CLI::App& app) {
   command->add_option("--dataset,-d", options->dataset, "data set file (YAML) with tests")
       ->required()
       ->type_name("FILE");
-  command->add_option("--method,-m", options->method, methodHelp())
-      ->type_name("NAME")
-      ->check(CLI::IsMember(methodNames()));
+  options->method.add(*command);
   options->codebook.add(*command);
   options->settings.add(*command);
   options->json.add(*command);

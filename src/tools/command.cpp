@@ -17,14 +17,23 @@ void SettingsOptions::add(CLI::App& command) {
       ->allow_extra_args(false);
 }
 
-void SettingsOptions::apply(Settings& settings) const {
-  if (!config_.empty()) loadSettings(config_, settings);
+void SettingsOptions::apply(Settings& settings, baselines::MethodSettings* own) const {
+  if (!config_.empty() && own != nullptr) {
+    baselines::loadMethodSettings(config_, settings, *own);
+  } else if (!config_.empty()) {
+    loadSettings(config_, settings);
+  }
   for (const std::string& set : sets_) {
     const std::size_t equals = set.find('=');
     if (equals == std::string::npos) {
       throw Error(ErrorCode::bad_usage, "--set " + set + ": expected key=value, e.g. --set keypoints.discard=0.5");
     }
-    setSetting(settings, set.substr(0, equals), set.substr(equals + 1));
+    const std::string key = set.substr(0, equals), value = set.substr(equals + 1);
+    if (own != nullptr && baselines::isMethodSetting(key)) {
+      setMethodSetting(*own, key, value);
+    } else {
+      setSetting(settings, key, value);
+    }
   }
   validate(settings);
 }

@@ -22,6 +22,8 @@
 
 #include <sks_detector/settings.hpp>
 
+#include "baselines/method_settings.hpp"
+
 namespace sks::tools {
 
 void addTrain(CLI::App& app);
@@ -40,8 +42,9 @@ public:
   void add(CLI::App& command);
 
   /// Overlays the file, then each --set in its order, and validates the outcome.
+  /// @param own takes what belongs to a method; where there is none, that is refused
   /// @throws Error(bad_usage), Error(bad_file)
-  void apply(Settings& settings) const;
+  void apply(Settings& settings, baselines::MethodSettings* own = nullptr) const;
 
 private:
   std::string config_;

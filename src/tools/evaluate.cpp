@@ -3,7 +3,6 @@
 
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/dataset.hpp>
-#include <sks_detector/detector.hpp>
 #include <sks_detector/evaluation.hpp>
 #include <sks_detector/file.hpp>
 
@@ -21,7 +20,7 @@ namespace {
 
 struct Options {
   std::string dataset;
-  std::string method = "sks";
+  MethodOption method;
   std::string plot;
   std::string bop_results;
   CodebookOptions codebook;
@@ -29,10 +28,10 @@ struct Options {
   JsonOption json;
 };
 
-void run(const Options& options) {
+void run(Options& options) {
   std::shared_ptr<const Codebook> codebook = options.codebook.read();
   Settings settings = codebook ? codebook->settings : Settings();
-  applyMethod(options.method, options.settings, settings);
+  options.method.applyForScenes(options.settings, settings);
   const DataSet data_set = loadDataSet(options.dataset);
   for (const std::string& warning : data_set.warnings) warn(warning);
   options.json.check();  // what cannot be written is found before the work is done
@@ -50,11 +49,11 @@ void run(const Options& options) {
   for (const std::string& object : untrainedObjects(data_set, codebook->objects)) {
     warn("object '" + object + "' of the ground truth was never trained: it counts as missed");
   }
-  const Detector detector(codebook, settings);
-  const auto detect = [&](const Cloud& cloud) { return detector.detect(cloud); };
-  const Evaluation evaluation = evaluate(data_set, detect, options.method, settings, bar.callback());
+  const DetectFunction detect = options.method.detectFunction(codebook, settings);
+  const Evaluation evaluation = evaluate(data_set, detect, options.method.name(), settings, bar.callback());
   bar.clear();
-  const nlohmann::json json = evaluationJson(evaluation);
+  nlohmann::json json = evaluationJson(evaluation);
+  options.method.addSettings(json["settings"]);
   options.json.write(json);
   if (!options.bop_results.empty()) writeFileAtomically(options.bop_results, bopResults(data_set, evaluation));
   if (!options.json.onStdout()) print(evaluationTable(evaluation));
@@ -73,9 +72,7 @@ void addEvaluate(CLI::App& app) {
       ->required()
       ->type_name("FILE");
   options->codebook.add(*command);
-  command->add_option("--method,-m", options->method, methodHelp())
-      ->type_name("NAME")
-      ->check(CLI::IsMember(methodNames()));
+  options->method.add(*command);
   options->settings.add(*command);
   options->json.add(*command);
   command->add_option("--plot", options->plot, "draw precision-recall curves, thresholds, times and each scene")

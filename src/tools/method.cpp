@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/method.hpp"
 
+#include <algorithm>
+
+#include <sks_detector/detector.hpp>
+#include <sks_detector/error.hpp>
 #include <sks_detector/settings_file.hpp>
 
+#include "baselines/methods.hpp"
 #include "tools/share.hpp"
 
 namespace sks::tools {
 namespace {
+
+using baselines::Method;
 
 void useWholeGrid(KeypointSettings& settings) {
   settings.detector = KeypointDetector::grid;
@@ -14,27 +21,88 @@ void useWholeGrid(KeypointSettings& settings) {
   settings.discard = 0;
 }
 
-}  // namespace
-
 std::vector<std::string> methodNames() {
-  return {"sks", "sks-paper", "grid"};
+  std::vector<std::string> names{"sks", "sks-paper", "grid"};
+  for (const Method& method : baselines::methods()) names.push_back(method.name);
+  return names;
 }
 
 std::string methodHelp() {
-  return "sks: this detector with the given settings; sks-paper: the same, starting from the preset paper.yaml; grid: "
-         "every grid keypoint, without selection";
+  std::string help =
+      "sks: this detector with the given settings; sks-paper: the same, starting from the preset paper.yaml; grid: "
+      "every grid keypoint, without selection";
+  for (const Method& method : baselines::methods()) help += "; " + method.name + ": " + method.help;
+  return help;
 }
 
-void applyMethod(const std::string& method, const SettingsOptions& options, Settings& settings) {
-  if (method == "sks-paper") loadSettings(sharePath("config/paper.yaml"), settings);
-  options.apply(settings);
-  if (method == "grid") useWholeGrid(settings.keypoints);
+void refuse(const std::string& name, const std::string& reason) {
+  if (!reason.empty()) throw Error(ErrorCode::bad_usage, "--method " + name + ": " + reason);
 }
 
-void applyClassificationMethod(const std::string& method, const SettingsOptions& options, Settings& settings) {
-  if (method == "sks-paper") settings.keypoints.discard = 0.5;  // SKS-50
+bool reads(const Method& method, const SettingInfo& info) {
+  const std::string group = info.key.substr(0, info.key.find('.'));
+  return std::find(method.groups.begin(), method.groups.end(), group) != method.groups.end();
+}
+
+}  // namespace
+
+void MethodOption::add(CLI::App& command) {
+  command.add_option("--method,-m", name_, methodHelp())->type_name("NAME")->check(CLI::IsMember(methodNames()));
+}
+
+void MethodOption::applyBaseline(const std::string& preset, const SettingsOptions& options, Settings& settings) {
+  baselines::loadMethodSettings(sharePath(preset), settings, own_);
+  const baselines::MethodSettings before = own_;
+  options.apply(settings, &own_);
+  for (const SettingInfo& info : baselines::methodSettingInfos()) {
+    if (reads(*baselines::findMethod(name_), info)) continue;
+    if (getMethodSetting(own_, info.key) == getMethodSetting(before, info.key)) continue;
+    throw Error(ErrorCode::bad_usage, "setting '" + info.key + "' has no effect on --method " + name_);
+  }
+}
+
+void MethodOption::applyForScenes(const SettingsOptions& options, Settings& settings) {
+  if (const Method* method = baselines::findMethod(name_)) {
+    refuse(name_, method->no_detection);
+    return applyBaseline("config/methods/" + name_ + ".yaml", options, settings);
+  }
+  if (name_ == "sks-paper") loadSettings(sharePath("config/paper.yaml"), settings);
   options.apply(settings);
-  if (method == "grid") useWholeGrid(settings.keypoints);
+  if (name_ == "grid") useWholeGrid(settings.keypoints);
+}
+
+void MethodOption::applyForIsolatedObjects(const SettingsOptions& options, Settings& settings) {
+  if (const Method* method = baselines::findMethod(name_)) {
+    refuse(name_, method->no_classification);
+    return applyBaseline("config/methods/" + name_ + "_classify.yaml", options, settings);
+  }
+  if (name_ == "sks-paper") settings.keypoints.discard = 0.5;  // SKS-50
+  options.apply(settings);
+  if (name_ == "grid") useWholeGrid(settings.keypoints);
+}
+
+DetectFunction MethodOption::detectFunction(const std::shared_ptr<const Codebook>& codebook,
+                                            const Settings& settings) const {
+  if (baselines::findMethod(name_)) return baselines::makeDetect(name_, codebook, settings, own_);
+  const auto detector = std::make_shared<const Detector>(codebook, settings);
+  return [=](const Cloud& cloud) { return detector->detect(cloud); };
+}
+
+ClassifyFunction MethodOption::classifyFunction(const std::shared_ptr<const Codebook>& codebook,
+                                                const Settings& settings) const {
+  const ViewKind kind = testKind(*codebook);
+  if (baselines::findMethod(name_)) return baselines::makeClassify(name_, codebook, settings, own_, kind);
+  const ClassBalance balance = name_ == "sks-paper" ? ClassBalance::none : ClassBalance::codewords;
+  const auto classifier = std::make_shared<const Classifier>(codebook, settings, balance);
+  return [=](const Cloud& cloud) { return classifier->classify(cloud, kind); };
+}
+
+void MethodOption::addSettings(nlohmann::json& settings) const {
+  const Method* method = baselines::findMethod(name_);
+  for (const SettingInfo& info : baselines::methodSettingInfos()) {
+    if (method == nullptr || !reads(*method, info)) continue;
+    settings[info.key] = nlohmann::json::parse(getMethodSetting(own_, info.key));
+  }
 }
 
 }  // namespace sks::tools

@@ -1,27 +1,48 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include <sks_detector/classification.hpp>
+#include <sks_detector/codebook.hpp>
+#include <sks_detector/evaluation.hpp>
 #include <sks_detector/settings.hpp>
 
+#include "baselines/method_settings.hpp"
 #include "tools/command.hpp"
 
 namespace sks::tools {
 
-/// The methods that can be evaluated.
-std::vector<std::string> methodNames();
+/// `--method NAME`, with the settings that only some methods have.
+class MethodOption {
+public:
+  void add(CLI::App& command);
 
-/// What they are, for --help.
-std::string methodHelp();
+  const std::string& name() const { return name_; }
 
-/// Makes the settings those of a method: what the method starts from, then the options, then what the method fixes.
-/// @throws Error(bad_usage), Error(bad_file)
-void applyMethod(const std::string& method, const SettingsOptions& options, Settings& settings);
+  /// Makes the settings those of the method in scenes: what it starts from, then the options, then what it fixes.
+  /// @throws Error(bad_usage) for a method that does not detect too, Error(bad_file)
+  void applyForScenes(const SettingsOptions& options, Settings& settings);
 
-/// The same for isolated objects: the published method then differs in its selection alone, since what it is published
-/// with suits scenes. @throws Error(bad_usage), Error(bad_file)
-void applyClassificationMethod(const std::string& method, const SettingsOptions& options, Settings& settings);
+  /// The same for isolated objects: the published method then differs in its selection alone, since what it is
+  /// published with suits scenes. @throws Error(bad_usage) for a method that does not classify too, Error(bad_file)
+  void applyForIsolatedObjects(const SettingsOptions& options, Settings& settings);
+
+  /// @throws what the constructor of Detector throws
+  DetectFunction detectFunction(const std::shared_ptr<const Codebook>& codebook, const Settings& settings) const;
+  /// @throws what the constructor of Classifier throws
+  ClassifyFunction classifyFunction(const std::shared_ptr<const Codebook>& codebook, const Settings& settings) const;
+
+  /// Adds the settings that only this method has, for JSON.
+  void addSettings(nlohmann::json& settings) const;
+
+private:
+  void applyBaseline(const std::string& preset, const SettingsOptions& options, Settings& settings);
+
+  std::string name_ = "sks";
+  baselines::MethodSettings own_;
+};
 
 }  // namespace sks::tools

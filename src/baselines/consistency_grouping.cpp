@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <pcl/recognition/cg/geometric_consistency.h>
+
+#include "baselines/grouping.hpp"
+
+namespace sks::baselines {
+
+Grouping consistencyGrouping(const ChenSettings& settings) {
+  return [=](const FramedModel& model, const FramedKeypoints& scene) {
+    pcl::GeometricConsistencyGrouping<pcl::PointXYZ, pcl::PointXYZ> grouping;
+    grouping.setGCSize(settings.resolution);
+    grouping.setGCThreshold(settings.consensus - 1);  // PCL wants more than this
+    grouping.setInputCloud(model.keypoints.positions);
+    grouping.setSceneCloud(scene.positions);
+    grouping.setModelSceneCorrespondences(model.correspondences);
+    std::vector<Eigen::Matrix4f, Eigen::aligned_allocator<Eigen::Matrix4f>> transforms;
+    std::vector<pcl::Correspondences> clusters;
+    grouping.recognize(transforms, clusters);
+    return groupsOf(clusters, model, scene, settings.resolution);
+  };
+}
+
+}  // namespace sks::baselines
