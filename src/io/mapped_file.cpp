@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/mapped_file.hpp"
 
+#include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <system_error>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -30,23 +33,68 @@ struct Descriptor {
   throw Error(ErrorCode::bad_file, std::generic_category().message(errno));
 }
 
+constexpr std::size_t block_size = 1 << 20;  // [bytes]
+
+/// As many bytes from the place as there are, up to `size`.
+std::size_t readSome(int file, std::uint8_t* to, std::size_t size, std::size_t place) {
+  std::size_t done = 0;
+  while (done < size) {
+    const ssize_t count = ::pread(file, to + done, size - done, off_t(place + done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) failBySystem();
+    if (count == 0) break;
+    done += std::size_t(count);
+  }
+  return done;
+}
+
+/// Copies a file to memory that is zero. Fewer bytes than `size` where it was truncated meanwhile.
+std::size_t copy(int file, std::uint8_t* to, std::size_t size) {
+  std::vector<std::uint8_t> block(std::min(size, block_size));
+  std::size_t done = 0;
+  while (done < size) {
+    const std::size_t count = readSome(file, block.data(), std::min(block.size(), size - done), done);
+    if (count == 0) break;
+    const bool zero =
+        std::all_of(block.begin(), block.begin() + std::ptrdiff_t(count), [](auto byte) { return byte == 0; });
+    if (!zero) std::memcpy(to + done, block.data(), count);
+    done += count;
+  }
+  return done;
+}
+
+bool beginsWith(int file, const std::string& magic) {
+  std::vector<std::uint8_t> begin(magic.size());
+  return readSome(file, begin.data(), begin.size(), 0) == magic.size() &&
+         std::equal(magic.begin(), magic.end(), begin.begin(),
+                    [](char a, std::uint8_t b) { return std::uint8_t(a) == b; });
+}
+
 }  // namespace
 
-MappedFile::MappedFile(const std::string& path) {
+MappedFile::MappedFile(const std::string& path, const std::string& magic) {
   const Descriptor file(path);
   struct stat status {};
   if (file.number < 0 || ::fstat(file.number, &status) != 0) failBySystem();
   if (S_ISDIR(status.st_mode)) throw Error(ErrorCode::bad_file, "it is a folder; give the name of a file");
   if (!S_ISREG(status.st_mode)) throw Error(ErrorCode::bad_file, "it is no regular file");
-  if (status.st_size == 0) return;  // cannot be mapped
-  void* const data = ::mmap(nullptr, std::size_t(status.st_size), PROT_READ, MAP_PRIVATE, file.number, 0);
+  auto size = std::size_t(status.st_size);
+  if (!magic.empty() && !beginsWith(file.number, magic)) size = std::min(size, magic.size());
+  if (size == 0) return;  // cannot be mapped
+  void* const data = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (data == MAP_FAILED) failBySystem();
-  data_ = static_cast<const std::uint8_t*>(data);
-  size_ = std::size_t(status.st_size);
+  data_ = static_cast<std::uint8_t*>(data);
+  mapped_ = size;
+  try {
+    size_ = copy(file.number, data_, size);
+  } catch (...) {
+    ::munmap(data_, mapped_);
+    throw;
+  }
 }
 
 MappedFile::~MappedFile() {
-  if (data_) ::munmap(const_cast<std::uint8_t*>(data_), size_);
+  if (data_) ::munmap(data_, mapped_);
 }
 
 }  // namespace sks
