@@ -105,7 +105,8 @@ std::shared_ptr<const Codebook> read(const std::shared_ptr<const MappedFile>& fi
 
 std::shared_ptr<const Codebook> readCodebook(const std::string& path) {
   try {
-    return read(std::make_shared<const MappedFile>(path));
+    const CodebookHeader model;
+    return read(std::make_shared<const MappedFile>(path, std::string(model.magic, sizeof(model.magic))));
   } catch (const Error& error) {
     throw Error(error.code(), "cannot read codebook '" + path + "': " + error.what());
   }
