@@ -6,6 +6,7 @@
 
 #include <geometry_msgs/TransformStamped.h>
 #include <pcl_ros/transforms.h>
+#include <ros/console.h>
 #include <ros/init.h>
 #include <sensor_msgs/PointCloud2.h>
 
@@ -17,6 +18,9 @@ namespace {
 
 // Markers are published again while they hold, so that they go by themselves where the node went without a word.
 constexpr double marker_lifetime = 3.0, marker_period = 1.0;  // [s]
+
+// Transforms of a stamp near the end of time make tf2, and so other nodes, throw.
+constexpr double furthest_ahead = 3600;  // [s]
 
 /// Publishes a cloud in the frame of the header, if somebody listens.
 void publishCloud(const ros::Publisher& publisher, const sks::Cloud& cloud, const Eigen::Isometry3d& T_target_cloud,
@@ -82,6 +86,11 @@ void DetectionOutput::publishMarkers(const DetectionArray& detections) {
 }
 
 void DetectionOutput::broadcastPoses(const DetectionArray& detections) {
+  if (detections.header.stamp.toSec() > ros::Time::now().toSec() + furthest_ahead) {
+    ROS_ERROR_THROTTLE(30,
+                       "detections are not broadcast on /tf: their cloud is stamped more than an hour in the future");
+    return;
+  }
   std::vector<geometry_msgs::TransformStamped> transforms;
   std::map<std::string, int> count;
   for (const Detection& detection : detections.detections) {

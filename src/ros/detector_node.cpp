@@ -112,7 +112,7 @@ void DetectorNode::process(const CloudInput::Frame& frame) {
   const std_msgs::Header& header = frame.cloud->header;
   const ros::Time start = ros::Time::now();
   if (start < frame.received_at) return;  // it came before time jumped back
-  const double age = header.stamp.isZero() ? 0 : (start - header.stamp).toSec();
+  const double age = header.stamp.isZero() ? 0 : start.toSec() - header.stamp.toSec();  // ros::Duration may overflow
   if (settings.max_input_age > 0 && age > settings.max_input_age) {
     statistics_.tooOld(age);
     errors_.warning("age", "clouds of " + input_.topic() + " are dropped: they are older than ~max_input_age");

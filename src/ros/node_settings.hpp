@@ -17,6 +17,7 @@ struct NodeSettings {
   std::string sensor_frame;
   double tf_timeout = 0.2;
   double max_input_age = 0.0;
+  int max_points = 2000000;
   double silence_warning = 5.0;
   double service_timeout = 10.0;
   bool always_on = false;
@@ -36,6 +37,7 @@ struct NodeSettings {
     v(s.tf_timeout, "tf_timeout", Range{0, 60}, "s",
       "longest wait for the transforms of ~target_frame and ~sensor_frame");
     v(s.max_input_age, "max_input_age", Range{0, 3600}, "s", "older clouds are dropped; 0: none");
+    v(s.max_points, "max_points", Range{1, 100000000}, "", "clouds with more points are refused");
     v(s.silence_warning, "silence_warning", Range{0, 3600}, "s", "a warning after so long without a cloud; 0: never");
     v(s.service_timeout, "service_timeout", Range{0.1, 3600}, "s", "longest wait of a service for the next cloud");
     v(s.always_on, "always_on", "process clouds even while nobody listens");

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <thread>
 
+#include <ros/console.h>
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <sks_detector/error.hpp>
@@ -11,18 +12,49 @@
 #include "core/value_text.hpp"
 
 namespace sks_detector {
+namespace {
+
+constexpr std::uint32_t queue_size = 100;  // as tf2_ros has it
+
+}  // namespace
 
 std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
-void Transforms::listen() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (!listener_) listener_ = std::make_unique<tf2_ros::TransformListener>(buffer_);
+Transforms::Transforms() {
+  handle_.setCallbackQueue(&queue_);
 }
 
-void Transforms::clear() {
-  buffer_.clear();
+Transforms::~Transforms() {
+  spinner_.stop();
+}
+
+void Transforms::listen() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (changing_) return;
+  using Event = ros::MessageEvent<const Message>;
+  const auto subscribe = [this](const char* topic, bool is_static) {
+    const boost::function<void(const Event&)> receive = [this, is_static](const Event& event) {
+      this->receive(event, is_static);
+    };
+    return handle_.subscribe<Message>(topic, queue_size, receive);
+  };
+  changing_ = subscribe("/tf", false);
+  static_ = subscribe("/tf_static", true);
+  spinner_.start();
+}
+
+void Transforms::receive(const ros::MessageEvent<const Message>& event, bool is_static) {
+  for (const geometry_msgs::TransformStamped& transform : event.getMessage()->transforms) {
+    try {
+      buffer_.setTransform(transform, event.getPublisherName(), is_static);
+    } catch (const std::exception& error) {
+      ROS_ERROR_STREAM_THROTTLE(30, "transform from '" << transform.child_frame_id << "' to '"
+                                                       << transform.header.frame_id << "' of "
+                                                       << event.getPublisherName() << " is ignored: " << error.what());
+    }
+  }
 }
 
 Eigen::Isometry3d Transforms::lookup(const std::string& target, const std::string& source, const ros::Time& stamp,
@@ -34,8 +66,8 @@ Eigen::Isometry3d Transforms::lookup(const std::string& target, const std::strin
   const auto end = Clock::now() + std::chrono::duration<double>(timeout);
   std::string reason;
   while (!stopped_) {
-    if (buffer_.tf2::BufferCore::canTransform(target, source, stamp, &reason)) {
-      return tf2::transformToEigen(buffer_.tf2::BufferCore::lookupTransform(target, source, stamp));
+    if (buffer_.canTransform(target, source, stamp, &reason)) {
+      return tf2::transformToEigen(buffer_.lookupTransform(target, source, stamp));
     }
     if (Clock::now() >= end) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

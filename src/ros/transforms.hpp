@@ -2,13 +2,16 @@
 #pragma once
 
 #include <atomic>
-#include <memory>
 #include <mutex>
 #include <string>
 
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <ros/spinner.h>
+#include <ros/subscriber.h>
 #include <ros/time.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
+#include <tf2/buffer_core.h>
+#include <tf2_msgs/TFMessage.h>
 #include <Eigen/Geometry>
 
 namespace sks_detector {
@@ -16,13 +19,19 @@ namespace sks_detector {
 /// Frame names as tf2 has them: without the leading slash of tf.
 std::string withoutSlash(const std::string& frame);
 
-/// Transforms of tf2. Safe to use from several threads.
+/// Transforms of tf2. Safe to use from several threads. Unlike tf2_ros::TransformListener it survives what others send:
+/// a stamp at the end of time, for example, makes tf2 throw.
 class Transforms {
 public:
+  Transforms();
+  ~Transforms();
+  Transforms(const Transforms&) = delete;
+  Transforms& operator=(const Transforms&) = delete;
+
   /// Starts to listen to /tf and /tf_static, if it was not done yet: nodes that need no transforms do not pay for them.
   void listen();
   /// Forgets what is not static, after time jumped back.
-  void clear();
+  void clear() { buffer_.clear(); }
   /// Lets lookup() fail at once.
   void stop() { stopped_ = true; }
 
@@ -32,10 +41,17 @@ public:
                            double timeout);
 
 private:
-  tf2_ros::Buffer buffer_;
-  std::mutex mutex_;
-  std::unique_ptr<tf2_ros::TransformListener> listener_;
+  using Message = tf2_msgs::TFMessage;
+
+  void receive(const ros::MessageEvent<const Message>& event, bool is_static);
+
+  tf2::BufferCore buffer_;
   std::atomic<bool> stopped_{false};
+  ros::CallbackQueue queue_;
+  ros::NodeHandle handle_;
+  std::mutex mutex_;  // guards the subscribers while they are made
+  ros::Subscriber changing_, static_;
+  ros::AsyncSpinner spinner_{1, &queue_};
 };
 
 }  // namespace sks_detector

@@ -101,9 +101,9 @@ def points_of(message):
 class CloudSource:
     """Publishes clouds, once the node has subscribed."""
 
-    def __init__(self, topic):
+    def __init__(self, topic, queue_size=10):
         self.topic = topic
-        self.publisher = rospy.Publisher(topic, PointCloud2, queue_size=10)
+        self.publisher = rospy.Publisher(topic, PointCloud2, queue_size=queue_size)
 
     def wait_for_subscriber(self):
         wait_for(lambda: self.publisher.get_num_connections() > 0, "a subscriber of " + self.topic)
@@ -173,11 +173,17 @@ class Node:
 
     def __exit__(self, *_):
         status = self.stop()
-        rospy.delete_param("/" + self.name)
+        if rospy.has_param("/" + self.name):
+            rospy.delete_param("/" + self.name)
         assert status == 0, "exit status %s of %s:\n%s" % (status, self.name, self.output())
 
     def alive(self):
         return self._process.poll() is None
+
+    def memory(self):
+        """Resident [MB]."""
+        with open("/proc/%d/status" % self._process.pid) as status:
+            return next(int(line.split()[1]) for line in status if line.startswith("VmRSS")) / 1024
 
     def output(self):
         return "".join(self._lines)
