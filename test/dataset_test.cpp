@@ -140,7 +140,7 @@ TEST_F(DataSetFile, AMissingOrForeignFileIsNamed) {
   EXPECT_THAT(refusal("name: [1, 2\n", ErrorCode::bad_file), HasSubstr("not a YAML file"));
   EXPECT_THAT(refusal(""), HasSubstr("must be a map"));
   EXPECT_THAT(refusal("- a\n- b\n"), HasSubstr("must be a map"));
-  EXPECT_THAT(refusal(head + "---\n" + head), HasSubstr("a second document"));
+  EXPECT_THAT(refusal(head + "---\n" + head, ErrorCode::bad_file), HasSubstr("a second document"));
   EXPECT_THAT(refusal(head), HasSubstr("needs 'training', 'scenes' or 'tests'"));
 }
 

@@ -78,8 +78,8 @@ TEST(SettingsFile, RepeatedKeysAreRefused) {
 TEST(SettingsFile, OtherThanOneMapIsRefused) {
   EXPECT_EQ(parseError("[1, 2]"), "c.yaml:1: settings must be a map, e.g. keypoints: {discard: 0.5}");
   EXPECT_EQ(parseError("discard"), "c.yaml:1: settings must be a map, e.g. keypoints: {discard: 0.5}");
-  EXPECT_EQ(parseError("{threads: 1}\n---\n{threads: 2}\n"),
-            "c.yaml:3: a second document in one settings file; keep one");
+  EXPECT_EQ(parseError("{threads: 1}\n---\n{threads: 2}\n", ErrorCode::bad_file),
+            "c.yaml:2: a second document in one file; keep one");
   EXPECT_EQ(parseError("? [a]\n: 1\n"), "c.yaml:1: a key must be plain text");
 }
 
@@ -93,6 +93,23 @@ TEST(SettingsFile, ForeignFilesAreNamed) {
   sks::writeFileAtomically(folder.path("c.yaml"), "threads: 999\n");
   EXPECT_EQ(errorOf(ErrorCode::bad_usage, [&] { sks::loadSettings(folder.path("c.yaml"), settings); }),
             folder.path("c.yaml") + ":1: threads = 999 is out of range: 0 to 256");
+}
+
+/// For YAML::LoadAll() these never end, while memory fills.
+TEST(SettingsFile, BracketsWithoutAPartnerAreRefused) {
+  for (const char* yaml :
+       {"{threads: 1}}\n", "{keypoints: {discard: 0.5}, voting.b}, voting.a,}\n", "},\n", ",,,a: {b\nc"}) {
+    EXPECT_EQ(parseError(yaml, ErrorCode::bad_file).rfind("c.yaml:", 0), 0u) << yaml;
+  }
+}
+
+TEST(SettingsFile, DeepNestingIsRefusedBeforeItIsParsed) {
+  const std::string depth(100000, '['), message = "it is nested too deeply";
+  EXPECT_EQ(parseError("threads: 1\n" + depth, ErrorCode::bad_file), "c.yaml:2: not a YAML file: " + message);
+  EXPECT_EQ(parseError(std::string(100000, '{'), ErrorCode::bad_file), "c.yaml:1: not a YAML file: " + message);
+  std::string blocks;
+  for (int i = 0; i < 100000; ++i) blocks += "- ";
+  EXPECT_EQ(parseError(blocks, ErrorCode::bad_file), "c.yaml:1: not a YAML file: " + message);
 }
 
 TEST(SettingsFile, RefusedFileChangesNothing) {

@@ -13,6 +13,7 @@
 #include <sks_detector/file.hpp>
 
 #include "io/yaml_map.hpp"
+#include "io/yaml_text.hpp"
 
 namespace sks {
 namespace {
@@ -60,14 +61,7 @@ private:
 };
 
 DataSet DataSetReader::read() {
-  std::vector<YAML::Node> documents;
-  try {
-    documents = YAML::LoadAll(readTextFile(file_));
-  } catch (const YAML::Exception& e) {
-    throw Error(ErrorCode::bad_file, file_ + ":" + std::to_string(e.mark.line + 1) + ": not a YAML file: " + e.msg);
-  }
-  if (documents.size() > 1) failAt(file_, documents[1], "a second document in one data set file; keep one");
-  const YAML::Node root = documents.empty() ? YAML::Node() : documents[0];
+  const YAML::Node root = parseYaml(readTextFile(file_), file_);
   const YamlMap map = mapOf(root, "the data set", {"name", "units", "max_distance", "training", "scenes", "tests"});
   data_set_.name = map.text("name");
   readUnits(map);

@@ -5,12 +5,11 @@
 #include <set>
 #include <sstream>
 
-#include <yaml-cpp/yaml.h>
-
 #include <sks_detector/error.hpp>
 #include <sks_detector/file.hpp>
 
 #include "core/value_text.hpp"
+#include "io/yaml_text.hpp"
 
 namespace sks {
 namespace {
@@ -93,19 +92,12 @@ void loadSettings(const std::string& path, Settings& settings) {
 }
 
 void parseSettings(const std::string& yaml, const std::string& origin, Settings& settings) {
-  std::vector<YAML::Node> documents;
-  try {
-    documents = YAML::LoadAll(yaml);
-  } catch (const YAML::Exception& error) {
-    throw Error(ErrorCode::bad_file,
-                origin + ":" + std::to_string(error.mark.line + 1) + ": not a YAML file: " + error.msg);
-  }
+  const YAML::Node root = parseYaml(yaml, origin);
   Settings result = settings;
   Overlay overlay(origin, result);
-  if (documents.size() > 1) overlay.fail(documents[1], "a second document in one settings file; keep one");
-  if (documents.empty() || documents[0].IsNull()) return;
-  if (!documents[0].IsMap()) overlay.fail(documents[0], "settings must be a map, e.g. keypoints: {discard: 0.5}");
-  overlay.add(documents[0], "");
+  if (root.IsNull()) return;
+  if (!root.IsMap()) overlay.fail(root, "settings must be a map, e.g. keypoints: {discard: 0.5}");
+  overlay.add(root, "");
   settings = result;
 }
 
