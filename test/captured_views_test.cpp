@@ -109,6 +109,12 @@ TEST_F(CapturedViewsTest, RefusesNamesThatAreNone) {
   EXPECT_FALSE(fs::exists(root_ + "/a"));
 }
 
+/// Its folder would be taken for an object that the program makes itself, and no captured view could be read any more.
+TEST_F(CapturedViewsTest, RefusesTheNameOfABuiltInObject) {
+  EXPECT_THAT(errorOf(ErrorCode::bad_usage, [&] { views_.add("builtin:mug", view(1)); }), HasSubstr("'builtin:'"));
+  EXPECT_TRUE(views_.objects().empty());
+}
+
 TEST_F(CapturedViewsTest, RefusesAFolderThatLeadsOut) {
   fs::create_directories(path(""));
   fs::create_directory_symlink(root_, path("mug"));

@@ -130,6 +130,10 @@ TEST(CheckFileName, RefusesWhatIsNotOneName) {
   EXPECT_THAT(refusal("a\nb"), HasSubstr("control"));
   EXPECT_THAT(refusal(std::string("a\0b", 3)), HasSubstr("control"));
   EXPECT_THAT(refusal(std::string(101, 'a')), HasSubstr("longer than 100"));
+  for (const char* name : {"\xedug", "a\xc3", "\xc0\xaf", "\xed\xa0\x80", "\xef\xbf\xbf", "\xf4\x90\x80\x80"}) {
+    EXPECT_THAT(refusal(name), HasSubstr("not UTF-8"));
+  }
+  for (const char* name : {"\xe2\x98\x95", "\xf0\x9f\x8d\xb5"}) EXPECT_NO_THROW(checkFileName(name, "")) << name;
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace sks {
 /// @throws Error(bad_usage) naming both: outside of the directory, the directory itself, empty, too long, not a name
 std::string confinedPath(const std::string& path, const std::string& directory);
 
-/// Checks that a name is fit for one folder or file: no separators or control characters, no leading dot, at most 100
-/// bytes. @param what the name is, for the message, e.g. "the object's name" @throws Error(bad_usage)
+/// Checks that a name is fit for one folder or file: UTF-8 without separators or control characters, no leading dot, at
+/// most 100 bytes. @param what the name is, for the message, e.g. "the object's name" @throws Error(bad_usage)
 void checkFileName(const std::string& name, const std::string& what);
 
 }  // namespace sks

@@ -6,12 +6,12 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include <yaml-cpp/yaml.h>
-
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/confined_path.hpp>
 #include <sks_detector/error.hpp>
 #include <sks_detector/file.hpp>
+
+#include "io/yaml_text.hpp"
 
 namespace sks {
 namespace {
@@ -43,12 +43,8 @@ std::string nextName(const fs::path& folder) {
 
 /// The data set file as it stands, so that what is not ours to know stays as it is.
 YAML::Node loadFile(const std::string& file) {
-  if (!fs::exists(file)) return YAML::Load("{name: captured, units: m}");
-  try {
-    return YAML::Load(readTextFile(file));
-  } catch (const YAML::Exception& error) {
-    throw Error(ErrorCode::bad_file, file + ": not a YAML file: " + error.what());
-  }
+  const std::string text = fs::exists(file) ? readTextFile(file) : "{name: captured, units: m}";
+  return parseYaml(text, file);
 }
 
 void storeFile(const std::string& file, const YAML::Node& root) {
@@ -64,6 +60,9 @@ CapturedViews::CapturedViews(std::string folder)
 
 CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& view) {
   checkFileName(object, "the object's name");
+  if (object.rfind("builtin:", 0) == 0) {
+    throw Error(ErrorCode::bad_usage, "the object's name '" + object + "' is refused: it starts with 'builtin:'");
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
   const DataSet before = readUnlocked();
   if (before.scale != 1) {

@@ -7,6 +7,8 @@
 
 #include <sks_detector/error.hpp>
 
+#include "io/utf8.hpp"
+
 namespace sks {
 namespace {
 
@@ -78,6 +80,7 @@ void checkFileName(const std::string& name, const std::string& what) {
   if (name.find('/') != std::string::npos || name.find('\\') != std::string::npos) refuse("it contains a slash");
   const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
   if (std::any_of(name.begin(), name.end(), control)) refuse("it contains a control character");
+  if (!isUtf8(name)) refuse("it is not UTF-8");
 }
 
 }  // namespace sks
