@@ -12,6 +12,7 @@
 #include <sks_detector/file.hpp>
 #include <sks_detector/settings_file.hpp>
 
+#include "codebook_generated.h"
 #include "error_of.hpp"
 #include "io/codebook_layout.hpp"
 #include "io/crc32c.hpp"
@@ -260,6 +261,29 @@ TEST_F(CodebookFile, MetadataIsVerifiedBehindTheChecksum) {
   EXPECT_GT(refused, 100u);
 }
 
+/// Eight thousand objects of one name of 8000 bytes: 64 MB from a file of 40 kB, were they copied.
+TEST_F(CodebookFile, SharedTextIsNotMultiplied) {
+  namespace format = sks::format;
+  flatbuffers::FlatBufferBuilder builder;
+  const auto text = builder.CreateString(std::string(8000, 'x'));
+  const auto objects = builder.CreateVector(std::vector<flatbuffers::Offset<flatbuffers::String>>(8000, text));
+  const auto views = builder.CreateVector(std::vector<flatbuffers::Offset<format::View>>());
+  const auto words = builder.CreateVectorOfStructs(std::vector<format::Word>());
+  format::FinishCodebookBuffer(builder, format::CreateCodebook(builder, text, builder.CreateString("shot"), 352,
+                                                               builder.CreateString(""), objects, views, words));
+  sks::CodebookHeader header;
+  header.version = 1;
+  header.metadata_offset = sizeof(header);
+  header.metadata_size = builder.GetSize();
+  std::string content(sizeof(header), '\0');
+  content.append(reinterpret_cast<const char*>(builder.GetBufferPointer()), builder.GetSize());
+  content.resize((content.size() + 63) / 64 * 64);
+  header.descriptors_offset = header.file_size = content.size();
+  content.replace(0, sizeof(header), reinterpret_cast<const char*>(&header), sizeof(header));
+  EXPECT_LT(content.size(), 50000u);
+  EXPECT_EQ(readError(sealed(content)), "its metadata is damaged; train it again");
+}
+
 TEST_F(CodebookFile, UnknownSettingsAreNamed) {
   std::string whole = content();
   whole.replace(whole.find("discard"), 7, "discord");
@@ -294,6 +318,9 @@ TEST_F(CodebookFile, OnlySoundCodebooksAreWritten) {
   codebook = makeCodebook();
   codebook.views[2].surface_normals.pop_back();
   EXPECT_EQ(writeError(codebook), "its training cloud 'view2.pcd' has not one normal for each surface point");
+  codebook = makeCodebook();
+  codebook.views[2].frame = std::string(4097, 'x');
+  EXPECT_EQ(writeError(codebook), "its training cloud 'view2.pcd' has a frame with a name of more than 4096 bytes");
   codebook = makeCodebook();
   codebook.views[0].object = 2;
   EXPECT_EQ(writeError(codebook), "its training cloud 'view0.pcd' belongs to an object that is not there");

@@ -23,6 +23,7 @@ bool inside(std::uint64_t offset, std::uint64_t size, std::uint64_t file_size) {
 
 std::string viewFault(const Codebook& codebook, const TrainingView& view) {
   if (view.object >= codebook.objects.size()) return "belongs to an object that is not there";
+  if (view.frame.size() > longest_frame) return "has a frame with a name of more than 4096 bytes";
   if (view.surface_points.size() != view.surface_normals.size()) return "has not one normal for each surface point";
   if (!view.sensor_origin.allFinite()) return "has a sensor origin that is not finite";
   if (!view.box_min.allFinite() || !view.box_max.allFinite()) return "has a box that is not finite";

@@ -18,6 +18,9 @@ constexpr std::uint64_t codebook_alignment = 64;
 /// FlatBuffers' own limit, 2 GiB less one byte.
 constexpr std::uint64_t largest_metadata = 2147483646;
 
+/// Bytes of the name of a model frame at most: views share it in the file, but not in memory.
+constexpr std::size_t longest_frame = 4096;
+
 /// The first 64 bytes as they lie in the file. All versions of the format share them.
 struct CodebookHeader {
   char magic[8] = {'S', 'K', 'S', 'C', 'O', 'D', 'E', 'B'};

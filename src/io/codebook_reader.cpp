@@ -65,6 +65,21 @@ Settings readSettings(const std::string& yaml) {
   return settings;
 }
 
+constexpr std::size_t least_view = 48;  // bytes that a view takes besides its texts and surface
+
+/// FlatBuffers lets any number of entries refer to one text or vector: copied for each, they would fill the memory from
+/// a small file. What the writer leaves takes no more memory than it takes in the file.
+bool takesWhatItStores(const format::Codebook& from, std::uint64_t stored) {
+  std::uint64_t bytes = 0;
+  for (const auto* object : *from.objects()) bytes += object->size();
+  for (const auto* view : *from.views()) {
+    if (view->frame() != nullptr && view->frame()->size() > longest_frame) return false;
+    bytes += least_view + view->source()->size() + view->surface_points()->size() * sizeof(format::Vec3) +
+             view->surface_normals()->size() * sizeof(format::Vec3);
+  }
+  return bytes <= stored;
+}
+
 /// The descriptor section, in place.
 DescriptorMatrix descriptorsOf(const std::shared_ptr<const MappedFile>& file, const CodebookHeader& header,
                                std::size_t columns) {
@@ -79,6 +94,7 @@ std::shared_ptr<const Codebook> read(const std::shared_ptr<const MappedFile>& fi
   flatbuffers::Verifier verifier(file->data() + header.metadata_offset, header.metadata_size);
   if (!format::VerifyCodebookBuffer(verifier)) fail("its metadata is damaged; train it again");
   const format::Codebook& from = *format::GetCodebook(file->data() + header.metadata_offset);
+  if (!takesWhatItStores(from, header.metadata_size)) fail("its metadata is damaged; train it again");
 
   const auto codebook = std::make_shared<Codebook>();
   codebook->name = from.name()->str();
