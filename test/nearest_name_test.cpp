@@ -13,5 +13,10 @@ TEST(NearestName, IsTheOneWithTheFewestEdits) {
   EXPECT_EQ(nearestName("x", {}), "");
 }
 
+TEST(NearestName, TakesNoLongerForEndlessText) {
+  const std::string endless(10000000, 'x');
+  EXPECT_EQ(nearestName("clodu" + endless, {"kind" + endless, "cloud" + endless}), "cloud" + endless);
+}
+
 }  // namespace
 }  // namespace sks

@@ -3,11 +3,19 @@
 
 #include <algorithm>
 #include <numeric>
+#include <string_view>
 #include <vector>
 
 namespace sks {
+namespace {
 
-std::size_t editDistance(const std::string& a, const std::string& b) {
+constexpr std::size_t longest = 100;  // what people misspell is shorter
+
+}  // namespace
+
+std::size_t editDistance(const std::string& whole_a, const std::string& whole_b) {
+  const std::string_view a = std::string_view(whole_a).substr(0, longest);
+  const std::string_view b = std::string_view(whole_b).substr(0, longest);
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), current(b.size() + 1);
   std::iota(last.begin(), last.end(), std::size_t(0));
   for (std::size_t i = 1; i <= a.size(); ++i) {

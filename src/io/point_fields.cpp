@@ -60,6 +60,7 @@ bool hostIsBigEndian() {
 /// Calls `f(pointer to the point, its index)` row by row.
 template <typename Function>
 void forEachPoint(const PointBlock& block, Function f) {
+  if (block.width == 0) return;  // however many rows of nothing there are
   std::size_t index = 0;
   for (std::size_t row = 0; row < block.height; ++row) {
     const std::uint8_t* point = block.data + row * block.row_step;

@@ -22,6 +22,7 @@
 namespace sks_detector {
 namespace {
 
+constexpr std::size_t longest_failure = 2000;  // bytes; it may quote a request, and goes to log and status
 constexpr int thread_count = 4;  // a training and two that wait for clouds leave one for ~cancel_training
 
 ros::NodeHandle withQueue(ros::NodeHandle handle, ros::CallbackQueue& queue) {
@@ -93,7 +94,7 @@ private:
     } catch (const std::bad_alloc&) {
       return "there is not enough memory for this";
     } catch (const std::exception& error) {
-      return error.what();
+      return std::string(error.what()).substr(0, longest_failure);
     } catch (...) {
       return "an unknown error";
     }
