@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
+#include <ctime>
 #include <filesystem>
 #include <system_error>
 
@@ -24,6 +26,29 @@ std::string folderOf(const std::string& path) {
   const fs::path folder = fs::path(path).parent_path();
   return folder.empty() ? "." : folder.string();
 }
+
+/// Lets a limit on the size of files (RLIMIT_FSIZE) be an error of write() in its scope: the signal that comes with it
+/// would end the process. Touches no other thread.
+class NoSizeSignal {
+public:
+  NoSizeSignal() {
+    ::sigemptyset(&signal_);
+    ::sigaddset(&signal_, SIGXFSZ);
+    ::pthread_sigmask(SIG_BLOCK, &signal_, &before_);
+  }
+  ~NoSizeSignal() {
+    if (::sigismember(&before_, SIGXFSZ) == 0) {
+      const timespec at_once{};
+      ::sigtimedwait(&signal_, nullptr, &at_once);  // takes back what waits to be delivered
+    }
+    ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  NoSizeSignal(const NoSizeSignal&) = delete;
+  NoSizeSignal& operator=(const NoSizeSignal&) = delete;
+
+private:
+  sigset_t signal_{}, before_{};
+};
 
 /// Makes the rename durable; where a file system cannot sync folders there is nothing more to be done.
 void syncFolder(const std::string& folder) {
@@ -63,6 +88,7 @@ AtomicFile::~AtomicFile() {
 }
 
 void AtomicFile::write(const void* data, std::size_t size) {
+  const NoSizeSignal no_signal;
   const char* next = static_cast<const char*>(data);
   while (size > 0) {
     const ssize_t written = ::write(file_, next, size);
