@@ -2,6 +2,8 @@
 #include <sks_detector/simulation/mesh.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -143,12 +145,22 @@ void applyScale(const std::string& path, double scale, LoadedMesh& loaded) {
   for (Eigen::Vector3f& v : loaded.mesh.vertices) v *= float(scale);
 }
 
+/// Of the dozens of formats that assimp reads, those that are tested.
+void checkFormat(const std::string& path) {
+  std::string ending = fs::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+  const std::array<const char*, 4> known = {".obj", ".ply", ".stl", ".dae"};
+  if (std::find(known.begin(), known.end(), ending) != known.end()) return;
+  fail(path, "it is not called like an OBJ, PLY, STL or DAE file");
+}
+
 }  // namespace
 
 LoadedMesh loadMesh(const std::string& path, double scale) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) fail(path, "it is a folder; give the name of an OBJ, PLY, STL or DAE file");
   if (!fs::exists(path, ignored)) fail(path, "it does not exist");
+  checkFormat(path);
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // the file's own axes are the model's
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);

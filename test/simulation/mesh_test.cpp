@@ -45,6 +45,11 @@ TEST_F(MeshFile, ObjIsReadInMetres) {
   EXPECT_NEAR(loaded.mesh.areaVector(0).z(), 0.01f, 1e-7f);
 }
 
+TEST_F(MeshFile, OtherFormatsAreNotTried) {
+  EXPECT_THAT(refusal(write("a.blend", triangle)), HasSubstr("not called like an OBJ, PLY, STL or DAE file"));
+  EXPECT_EQ(loadMesh(write("A.OBJ", triangle)).mesh.triangles.size(), 1u);
+}
+
 TEST_F(MeshFile, LargeMeshIsTakenForMillimetresAndSaysSo) {
   const std::string path = write("a.obj", "v 0 0 0\nv 200 0 0\nv 0 100 0\nf 1 2 3\n");
   const LoadedMesh loaded = loadMesh(path);
