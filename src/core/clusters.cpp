@@ -28,6 +28,7 @@ std::vector<Indices> findClusters(const std::vector<Eigen::Vector3f>& points, do
   std::vector<pcl::PointIndices> found;
   extraction.extract(found);
   std::vector<Indices> clusters;
+  clusters.reserve(found.size());
   for (const pcl::PointIndices& cluster : found) clusters.emplace_back(cluster.indices.begin(), cluster.indices.end());
   const auto larger = [](const Indices& a, const Indices& b) { return a.size() > b.size(); };
   std::stable_sort(clusters.begin(), clusters.end(), larger);

@@ -41,7 +41,7 @@ HWY_INLINE Pairs loadPairs(const std::int16_t* from) {
 }
 
 HWY_INLINE Pairs repeatPair(const std::int16_t* from) {
-  std::int32_t pair;
+  std::int32_t pair = 0;
   std::memcpy(&pair, from, sizeof pair);
   return hn::BitCast(PairsTag(), hn::Set(Sums(), pair));
 }

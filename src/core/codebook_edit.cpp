@@ -18,7 +18,7 @@ std::shared_ptr<Codebook> withoutObject(const Codebook& codebook, const std::str
   if (codebook.objects.size() == 1) return nullptr;
   const auto removed = std::uint32_t(found - codebook.objects.begin());
 
-  const auto rest = std::make_shared<Codebook>();
+  auto rest = std::make_shared<Codebook>();
   rest->name = codebook.name;
   rest->descriptor_type = codebook.descriptor_type;
   rest->settings = codebook.settings;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/number_text.hpp"
 
+#include <clocale>
 #include <cstdlib>
-
-#include <locale.h>
 
 namespace sks {
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <locale.h>
 #include <cstdlib>
 #include <cstring>
 
