@@ -63,7 +63,7 @@ class ReplayTest(unittest.TestCase):
     def end_of(self, process):
         """Waits for the end of a launch and checks that it was a good one."""
         try:
-            status = process.wait(support.PATIENCE)
+            status = process.wait(3 * support.PATIENCE)  # starts, plays in real time, and ends
         finally:
             if process.poll() is None:
                 process.kill()
@@ -75,7 +75,7 @@ class ReplayTest(unittest.TestCase):
 
     def replay(self, **arguments):
         """The clouds' headers, and the detections by stamp, of a replay to its end."""
-        self.end_of(launch(self.folder, record=self.found, delay=4, linger=6, **arguments))
+        self.end_of(launch(self.folder, record=self.found, delay=4, linger=8, **arguments))
         clouds, arrays = [], {}
         with rosbag.Bag(self.found) as bag:
             for topic, message, _ in bag.read_messages():

@@ -11,7 +11,7 @@ import rostest
 class SoakTest(unittest.TestCase):
     def test_nothing_is_lost_and_nothing_grows(self):
         run = subprocess.run(["rosrun", "sks_detector", "soak", "--minutes", "0.3", "--warmup", "10", "--growth", "20",
-                              "--lost", "10"],
+                              "--lost", "10", "--slower", "1000"],
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
         self.assertEqual(run.returncode, 0, run.stdout)
         sent, received, processed, dropped = map(int, re.search(
@@ -21,13 +21,14 @@ class SoakTest(unittest.TestCase):
         self.assertEqual(processed + dropped, received)
         self.assertIn("clouds of 640x480", run.stdout)
         self.assertIn("largest difference 0 ns", run.stdout)
+        self.assertEqual(len(re.findall("^ok: ", run.stdout, re.M)), 8, run.stdout)
 
     def test_fails_where_memory_grows_too_much(self):
         run = subprocess.run(["rosrun", "sks_detector", "soak", "--minutes", "0.03", "--warmup", "1", "--growth", "-100",
-                              "--lost", "10"],
+                              "--lost", "10", "--slower", "1000"],
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
         self.assertEqual(run.returncode, 1, run.stdout)
-        self.assertIn("soak: memory grows by more than -100 %", run.stdout)
+        self.assertIn("NOT TRUE:  memory grows by no more than -100 %", run.stdout)
 
 
 if __name__ == "__main__":
