@@ -22,18 +22,18 @@ def transform(parent, child, stamp, x=0.0, w=1.0):
 
 
 class FaultyTransformsTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.transforms = rospy.Publisher("/tf", tf2_msgs.msg.TFMessage, queue_size=100)
-        cls.source = support.CloudSource("/points")
-
     def setUp(self):
+        # new ones: rospy keeps connections to what has gone
+        self.transforms = rospy.Publisher("/tf", tf2_msgs.msg.TFMessage, queue_size=100)
+        self.source = support.CloudSource("/points")
         self.detections = support.Recorder("/detector/detections", DetectionArray)
         self.status = support.Recorder("/detector/status", Status)
 
     def tearDown(self):
         self.detections.close()
         self.status.close()
+        self.source.publisher.unregister()
+        self.transforms.unregister()
 
     def node(self, timeout, target):
         return support.Node(parameters={"codebook": support.CODEBOOK, "tf_timeout": timeout, "target_frame": target})
