@@ -50,6 +50,8 @@ void configure(pcl::GlobalHypothesesVerification<HvPoint, HvPoint>& verification
   verification.setRadiusClutter(float(settings.clutter_radius));
   verification.setRadiusNormals(float(settings.normal_radius));
   verification.setDetectClutter(true);
+  verification.setInitialTemp(float(settings.annealing_steps));
+  verification.setMaxIterations(settings.annealing_steps);
 }
 
 }  // namespace
@@ -58,12 +60,16 @@ HypothesisCheck globalVerification(std::shared_ptr<const Codebook> codebook, con
                                    const RefinementSettings& refinement, int threads) {
   return [=](std::vector<RatedHypothesis> hypotheses, const Surface& scene) {
     if (hypotheses.size() > std::size_t(settings.hypotheses)) hypotheses.resize(std::size_t(settings.hypotheses));
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+    for (std::size_t i = 0; i < hypotheses.size(); ++i) refine(*codebook, scene, refinement, hypotheses[i].hypothesis);
+    hypotheses = withoutDuplicates(std::move(hypotheses), settings.inlier_distance);  // what ICP took to one place
+    if (hypotheses.empty()) return hypotheses;
+
     std::vector<PlacedSurface> placed(hypotheses.size());
     const RangeImage range_image(scene, float(settings.normal_radius));
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
     for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-      Hypothesis& hypothesis = hypotheses[i].hypothesis;
-      refine(*codebook, scene, refinement, hypothesis);
+      const Hypothesis& hypothesis = hypotheses[i].hypothesis;
       placed[i] =
           placedSurface(codebook->views[hypothesis.view], hypothesis, scene, range_image, settings.occlusion_distance);
     }
@@ -72,7 +78,6 @@ HypothesisCheck globalVerification(std::shared_ptr<const Codebook> codebook, con
       visible.push_back(surface.visible);
       complete.push_back(surface.complete);
     }
-    if (hypotheses.empty()) return hypotheses;
 
     annealing_moves.seed(1);
     pcl::GlobalHypothesesVerification<HvPoint, HvPoint> verification;

@@ -53,6 +53,7 @@ struct AldomaSettings {
   double clutter_weight = 5;
   double clutter_radius = 0.03;
   double normal_radius = 0.02;
+  int annealing_steps = 1000;
   double half_inliers = 4;
 
   template <typename Self, typename Visitor>
@@ -67,6 +68,8 @@ struct AldomaSettings {
       "what an unexplained scene point costs that continues the surface of an explained one");
     v(s.clutter_radius, "clutter_radius", Range{0.001, 1}, "m", "how near to an explained point that must be");
     v(s.normal_radius, "normal_radius", Range{0.001, 0.2}, "m", "neighbourhood of the thinned scene's normals");
+    v(s.annealing_steps, "annealing_steps", Range{1, 100000}, "",
+      "steps of simulated annealing; also the temperature that it starts from");
     v(s.half_inliers, "half_inliers", Range{0.001, 10000}, "", "inliers at which what was accepted scores 0.5");
   }
 };
