@@ -44,6 +44,7 @@ sks::Codebook makeCodebook(sks::DescriptorType type = sks::DescriptorType::shot)
     for (std::uint32_t k = 0; k < i; ++k) {
       view.surface_points.push_back(vector());
       view.surface_normals.push_back(vector().normalized());
+      if (i == 2) view.surface_colors.push_back(vector());
     }
     codebook.views.push_back(view);
   }
@@ -131,6 +132,7 @@ TEST_F(CodebookFile, RoundTripKeepsEverything) {
       EXPECT_EQ(back->views[i].box_max, codebook.views[i].box_max);
       EXPECT_EQ(back->views[i].surface_points, codebook.views[i].surface_points);
       EXPECT_EQ(back->views[i].surface_normals, codebook.views[i].surface_normals);
+      EXPECT_EQ(back->views[i].surface_colors, codebook.views[i].surface_colors);
     }
     ASSERT_EQ(back->words.size(), codebook.words.size());
     for (std::size_t i = 0; i < codebook.words.size(); ++i) {
@@ -321,6 +323,9 @@ TEST_F(CodebookFile, OnlySoundCodebooksAreWritten) {
   codebook = makeCodebook();
   codebook.views[2].frame = std::string(4097, 'x');
   EXPECT_EQ(writeError(codebook), "its training cloud 'view2.pcd' has a frame with a name of more than 4096 bytes");
+  codebook = makeCodebook();
+  codebook.views[2].surface_colors.pop_back();
+  EXPECT_EQ(writeError(codebook), "its training cloud 'view2.pcd' has not one colour for each surface point");
   codebook = makeCodebook();
   codebook.views[0].object = 2;
   EXPECT_EQ(writeError(codebook), "its training cloud 'view0.pcd' belongs to an object that is not there");

@@ -32,7 +32,7 @@ const TrainingView& trained() {
 
 PoseEvidence evidenceAt(const Surface& surface, const Eigen::Isometry3d& T_scene_model) {
   const Settings settings;
-  return examinePose(trained(), distinctiveness(trained()), SceneView(surface, settings), settings, T_scene_model);
+  return examinePose(trained(), Distinctiveness(trained()), SceneView(surface, settings), settings, T_scene_model);
 }
 
 Eigen::Isometry3d moved(double x, double y, double z) {
@@ -74,14 +74,16 @@ TEST(PoseEvidence, LargePlanesSpeakNeitherWay) {
   for (auto& normal : flat.surface_normals) normal = {0, 0, -1};
   const Settings settings;
   const Surface scene = sceneWith();
-  const PoseEvidence on_the_wall = examinePose(flat, std::vector<float>(flat.surface_points.size(), 0.5f),
-                                               SceneView(scene, settings), settings, moved(0.25, 0, 0.39));
+  Distinctiveness telling(flat);
+  telling.shape.assign(flat.surface_points.size(), 0.5f);
+  const PoseEvidence on_the_wall =
+      examinePose(flat, telling, SceneView(scene, settings), settings, moved(0.25, 0, 0.39));
   EXPECT_GT(on_the_wall.facing, 0);
   EXPECT_LT(on_the_wall.supported, 0.1 * on_the_wall.facing);
 }
 
 TEST(PoseEvidence, FlatPartsAreLessTellingThanEdges) {
-  const std::vector<float> weights = distinctiveness(trained());
+  const std::vector<float> weights = Distinctiveness(trained()).shape;
   ASSERT_EQ(weights.size(), trained().surface_points.size());
   const auto [least, most] = std::minmax_element(weights.begin(), weights.end());
   EXPECT_GE(*least, 0);
@@ -93,9 +95,9 @@ TEST(PoseEvidence, AGlanceTellsAGoodPoseFromABadOne) {
   const Settings settings;
   const Surface scene = sceneWith();
   const SceneView scene_view(scene, settings);
-  const std::vector<float> weights = distinctiveness(trained());
-  const RoughSupport good = glance(trained(), weights, scene_view, moved(0.004, 0, 0));
-  const RoughSupport bad = glance(trained(), weights, scene_view, moved(0, 0, -0.2));
+  const Distinctiveness telling(trained());
+  const RoughSupport good = glance(trained(), telling, scene_view, moved(0.004, 0, 0));
+  const RoughSupport bad = glance(trained(), telling, scene_view, moved(0, 0, -0.2));
   EXPECT_GT(good.points, 50);
   EXPECT_GT(good.supported, 0.7 * good.visible);
   EXPECT_EQ(bad.points, 0);

@@ -102,6 +102,18 @@ TEST(Trainer, KeepsAThinnedSurfaceWithNormals) {
   }
 }
 
+TEST(Trainer, KeepsTheColorsOfTheSurface) {
+  const auto plain = sks::train({sampleOf("bumps", sks::test::bumps())}, {}, "test").views[0];
+  EXPECT_TRUE(plain.surface_colors.empty());
+  sks::Cloud cloud = sks::test::sphere(0.06f, 0.003f, {1, 2, 3});
+  cloud.colors.assign(cloud.size(), {255, 0, 0});
+  const auto view = sks::train({sampleOf("ball", cloud, ViewKind::model)}, {}, "test").views[0];
+  ASSERT_EQ(view.surface_colors.size(), view.surface_points.size());
+  for (const Eigen::Vector3f& color : view.surface_colors) {  // red is L 53.2, a 80.1, b 67.2
+    EXPECT_LT((color - Eigen::Vector3f(0.532f, 0.668f, 0.56f)).norm(), 0.003f);
+  }
+}
+
 TEST(Trainer, AutomaticDescriptorIsCshotWhereAllCloudsHaveColor) {
   const auto colored = sampleOf("a", asymmetric(true), ViewKind::model), plain = sampleOf("b", sks::test::bumps());
   const auto color = sks::train({colored, colored}, {}, "test");

@@ -32,6 +32,7 @@ struct TrainingView {
   Eigen::Vector3f box_max = Eigen::Vector3f::Zero();
   std::vector<Eigen::Vector3f> surface_points;   ///< thinned surface [m], model frame
   std::vector<Eigen::Vector3f> surface_normals;  ///< its unit normals
+  std::vector<Eigen::Vector3f> surface_colors;   ///< its colours, as in Surface; empty without colour
 
   const std::string& frameName() const { return frame.empty() ? source : frame; }
   /// What the centre vectors of its codewords point to, and what a detection reports as its position.

@@ -190,6 +190,7 @@ struct VerificationSettings {
   double support_distance = 0.008;
   double support_angle = 0.45;
   double occlusion_distance = 0.015;
+  double color_tolerance = 20;
   double half_evidence = 4.4;
 
   template <typename Self, typename Visitor>
@@ -205,6 +206,9 @@ struct VerificationSettings {
     v(s.support_angle, "support_angle", Range{0.01, 1.5}, "rad", "... whose normal deviates by no more than this");
     v(s.occlusion_distance, "occlusion_distance", Range{0.0005, 0.5}, "m",
       "what lies this far behind the scene's surface is hidden; what lies this far in front of it should be seen");
+    v(s.color_tolerance, "color_tolerance", Range{0, 1000}, "CIELab",
+      "where codebook and scene have colours, what differs by this much from the stored colour (lightness counts half) "
+      "confirms it by 0.6 only, and so on with a Gaussian; 0: colours are not compared");
     v(s.half_evidence, "half_evidence", Range{0.001, 1000}, "", "evidence that scores 0.5 (docs/method.md)");
   }
 };

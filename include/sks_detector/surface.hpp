@@ -24,6 +24,7 @@ struct Surface : PointGrid {
 
   bool hasColor() const { return !color.empty(); }
   Eigen::Vector3f normal(std::size_t i) const { return {nx[i], ny[i], nz[i]}; }
+  Eigen::Vector3f colorAt(std::size_t i) const { return {color[i][0], color[i][1], color[i][2]}; }
 
   std::vector<float> nx, ny, nz;            ///< unit normals; NaN where none could be estimated
   std::vector<std::array<float, 3>> color;  ///< CIELab, scaled: L / 100, a / 120, b / 120; empty without colour

@@ -9,9 +9,9 @@
 namespace sks {
 namespace {
 
-constexpr int most_at_a_place = 24;  // candidates of one object whose box centres are near each other
-constexpr int most_of_a_view = 3;    // of these
-constexpr int fewest_supported = 6;  // points, as many as a rigid motion has degrees of freedom
+constexpr int most_at_a_place = 24;   // candidates of one object whose box centres are near each other
+constexpr int most_of_a_view = 3;     // of these
+constexpr int fewest_supported = 6;   // points, as many as a rigid motion has degrees of freedom
 constexpr double prior_weight = 0.2;  // so that a share of next to nothing is next to nothing
 
 Eigen::Isometry3d poseOf(const Vote& vote, const Codeword& word) {
@@ -47,7 +47,7 @@ std::vector<PoseCandidate> mostPromising(std::vector<PoseCandidate> candidates, 
 
 }  // namespace
 
-std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<std::vector<float>>& weights,
+std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<Distinctiveness>& telling,
                                           const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
                                           const Settings& settings, int threads) {
   std::vector<PoseCandidate> all;
@@ -61,7 +61,7 @@ std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::v
       PoseCandidate& candidate = candidates[i];
       candidate = {object, word.view, poseOf(votes[i], word), 0};
       const RoughSupport support =
-          glance(codebook.views[word.view], weights[word.view], scene, candidate.T_scene_model);
+          glance(codebook.views[word.view], telling[word.view], scene, candidate.T_scene_model);
       if (support.points < fewest_supported) continue;
       const double share = support.supported / (support.visible + prior_weight);
       candidate.promise = share * std::sqrt(support.supported * density.at(votes[i].position));

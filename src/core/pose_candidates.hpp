@@ -23,8 +23,9 @@ struct PoseCandidate {
 };
 
 /// The most promising poses of each object, at most `verification.candidates`, best first within each object.
-/// @param weights of the points of each view's stored surface, see distinctiveness()
-std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<std::vector<float>>& weights,
-                                          const std::vector<std::vector<Vote>>& spaces, const SceneView& scene, const Settings& settings, int threads);
+/// @param telling how telling the points of each view's stored surface are
+std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<Distinctiveness>& telling,
+                                          const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
+                                          const Settings& settings, int threads);
 
 }  // namespace sks

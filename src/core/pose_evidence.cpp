@@ -3,16 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+
+#include "core/color_agreement.hpp"
 
 namespace sks {
 namespace {
 
-constexpr float weight_radius = 0.02f;      // [m] the scale of the keypoints' local surfaces
-constexpr float grazing = 0.17f;            // cosine; surfaces turned away by more than 80 degrees are hardly measured
+constexpr float weight_radius = 0.02f;  // [m] the scale of the keypoints' local surfaces
+constexpr float color_weight = 0.5f;    // of varying colours beside varying normals
+constexpr float grazing = 0.17f;        // cosine; surfaces turned away by more than 80 degrees are hardly measured
 constexpr std::size_t glance_points = 80;
 constexpr float glance_distance = 0.015f;   // [m] rough poses are that far off
 constexpr float glance_agreement = 0.7f;    // cosine, about 45 degrees
 constexpr float glance_occlusion = 0.02f;   // [m]
+constexpr float glance_color_slack = 1.5f;  // of the tolerance: prints are off by as much as the pose
 constexpr double unmeasured = 0.5;          // weight of what should be seen where the sensor measured nothing
 
 /// One point of a stored surface in the scene.
@@ -32,39 +37,54 @@ void forEachFacing(const TrainingView& view, const Surface& scene, const Eigen::
   }
 }
 
-/// The scene point within `distance` whose normal agrees best; `no_point` if none does by `agreement`.
-std::uint32_t partnerOf(const Placed& placed, const Surface& scene, float distance, float agreement,
-                        std::vector<PointGrid::Run>& runs) {
-  std::uint32_t partner = no_point;
-  scene.forEachNeighbor(placed.point, distance, runs, [&](std::uint32_t j, float) {
-    const float cosine = placed.normal.dot(scene.normal(j));
-    if (cosine > agreement) {
-      agreement = cosine;
-      partner = j;
+/// The scene point that confirms a point of a stored surface, and by how much.
+struct Partner {
+  std::uint32_t point = no_point;
+  float agreement = 1;  // of the colours
+};
+
+/// The scene point within `distance` whose normal agrees best; `no_point` if none does by `agreement`. Prints shift by
+/// some pixels where a pose is a little off: of those points, the one of the most similar colour counts.
+Partner partnerOf(const Placed& placed, const Eigen::Vector3f* color, const SceneView& scene, float distance,
+                  float agreement, std::vector<PointGrid::Run>& runs) {
+  const Surface& surface = scene.surface;
+  Partner partner;
+  float best = agreement, difference = std::numeric_limits<float>::infinity();
+  surface.forEachNeighbor(placed.point, distance, runs, [&](std::uint32_t j, float) {
+    const float cosine = placed.normal.dot(surface.normal(j));
+    if (color != nullptr && cosine > agreement) {
+      difference = std::min(difference, squaredColorDifference(*color, surface.colorAt(j)));
+    }
+    if (cosine > best) {
+      best = cosine;
+      partner.point = j;
     }
   });
+  if (color != nullptr) partner.agreement = colorAgreement(difference, scene.color_tolerance);
   return partner;
 }
 
 }  // namespace
 
-std::vector<float> distinctiveness(const TrainingView& view) {
+Distinctiveness::Distinctiveness(const TrainingView& view) : shape(view.surface_points.size(), 0.0f) {
   const PointGrid grid(view.surface_points, weight_radius);
-  std::vector<float> weights(view.surface_points.size(), 0.0f);
   std::vector<PointGrid::Run> runs;
-  for (std::size_t i = 0; i < weights.size(); ++i) {
+  for (std::size_t i = 0; i < shape.size(); ++i) {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     int count = 0;
     grid.forEachNeighbor(view.surface_points[i], weight_radius, runs, [&](std::uint32_t j, float) {
       sum += view.surface_normals[grid.source[j]];
       ++count;
     });
-    if (count > 0) weights[i] = std::max(0.0f, 1 - sum.norm() / float(count));
+    if (count > 0) shape[i] = std::max(0.0f, 1 - sum.norm() / float(count));
   }
-  return weights;
+  const std::vector<float> variation = colorVariation(view, weight_radius);
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    shape_and_color.push_back(std::min(1.0f, shape[i] + color_weight * variation[i]));
+  }
 }
 
-PoseEvidence examinePose(const TrainingView& view, const std::vector<float>& weights, const SceneView& scene,
+PoseEvidence examinePose(const TrainingView& view, const Distinctiveness& telling, const SceneView& scene,
                          const Settings& settings, const Eigen::Isometry3d& T_scene_model, std::size_t most_points) {
   const VerificationSettings& verification = settings.verification;
   const std::size_t stride = view.surface_points.size() / most_points + 1;
@@ -72,31 +92,38 @@ PoseEvidence examinePose(const TrainingView& view, const std::vector<float>& wei
   const float distance = float(verification.support_distance);
   const float agreement = float(std::cos(verification.support_angle));
   const float object_size = view.extent().maxCoeff();
+  const bool compares_color = scene.comparesColor(view);
+  const std::vector<float>& weights = compares_color ? telling.shape_and_color : telling.shape;
   PoseEvidence evidence;
   std::vector<PointGrid::Run> runs;
   forEachFacing(view, scene.surface, T_scene_model, stride, [&](std::size_t i, const Placed& placed) {
     const double weighted = area * weights[i];
     evidence.facing += area;
-    const std::uint32_t partner = partnerOf(placed, scene.surface, distance, agreement, runs);
-    if (partner == no_point) {
+    const Eigen::Vector3f* color = compares_color ? &view.surface_colors[i] : nullptr;
+    const Partner partner = partnerOf(placed, color, scene, distance, agreement, runs);
+    if (partner.point == no_point) {
       const Sight sight = scene.range_image.look(placed.point, float(verification.occlusion_distance)).sight;
       if (sight == Sight::unknown) evidence.weighted_visible += unmeasured * weighted;
       if (sight == Sight::at || sight == Sight::in_front) evidence.weighted_visible += weighted;
       return;
     }
-    if (planeExtentAt(scene.planes, scene.surface.point(partner), scene.surface.normal(partner)) > object_size) return;
-    evidence.supported += area;
+    const Eigen::Vector3f point = scene.surface.point(partner.point), normal = scene.surface.normal(partner.point);
+    if (planeExtentAt(scene.planes, point, normal) > object_size) return;
+    evidence.supported += area * partner.agreement;
     evidence.weighted_visible += weighted;
-    evidence.weighted_supported += weighted;
-    evidence.partners.push_back(partner);
+    evidence.weighted_supported += weighted * partner.agreement;
+    evidence.partners.push_back(partner.point);
   });
   return evidence;
 }
 
-RoughSupport glance(const TrainingView& view, const std::vector<float>& weights, const SceneView& scene,
+RoughSupport glance(const TrainingView& view, const Distinctiveness& telling, const SceneView& scene,
                     const Eigen::Isometry3d& T_scene_model) {
   const Surface& surface = scene.surface;
   const std::size_t stride = std::max<std::size_t>(1, view.surface_points.size() / glance_points);
+  const bool compares_color = scene.comparesColor(view);
+  const std::vector<float>& weights = compares_color ? telling.shape_and_color : telling.shape;
+  const float color_tolerance = glance_color_slack * scene.color_tolerance;
   RoughSupport support;
   forEachFacing(view, surface, T_scene_model, stride, [&](std::size_t i, const Placed& placed) {
     const auto [sight, point] = scene.range_image.look(placed.point, glance_occlusion);
@@ -104,7 +131,11 @@ RoughSupport glance(const TrainingView& view, const std::vector<float>& weights,
                            (surface.point(point) - placed.point).squaredNorm() < glance_distance * glance_distance;
     if (confirmed) {
       ++support.points;
-      support.supported += weights[i];
+      const double agreement =
+          compares_color
+              ? colorAgreement(squaredColorDifference(view.surface_colors[i], surface.colorAt(point)), color_tolerance)
+              : 1;
+      support.supported += agreement * weights[i];
     }
     if (confirmed || sight == Sight::at || sight == Sight::in_front) {
       support.visible += weights[i];

@@ -81,6 +81,7 @@ private:
       if (!surface.normal(i).allFinite()) continue;
       view.surface_points.push_back(surface.point(i));
       view.surface_normals.push_back(surface.normal(i));
+      if (surface.hasColor()) view.surface_colors.push_back(surface.colorAt(i));
     }
     codebook_.views.push_back(std::move(view));
   }

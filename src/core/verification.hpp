@@ -10,6 +10,8 @@
 #include <sks_detector/surface.hpp>
 #include <sks_detector/voting.hpp>
 
+#include "core/pose_evidence.hpp"
+
 namespace sks {
 
 /// Finds poses that the scene's surface confirms (docs/method.md, beyond the paper). Each correspondence is a pose by
@@ -27,7 +29,7 @@ public:
 
 private:
   std::shared_ptr<const Codebook> codebook_;
-  std::vector<std::vector<float>> weights_;  // of the points of each view's stored surface
+  std::vector<Distinctiveness> telling_;  // of the points of each view's stored surface
 };
 
 }  // namespace sks

@@ -25,13 +25,15 @@ std::string viewFault(const Codebook& codebook, const TrainingView& view) {
   if (view.object >= codebook.objects.size()) return "belongs to an object that is not there";
   if (view.frame.size() > longest_frame) return "has a frame with a name of more than 4096 bytes";
   if (view.surface_points.size() != view.surface_normals.size()) return "has not one normal for each surface point";
+  if (!view.surface_colors.empty() && view.surface_colors.size() != view.surface_points.size()) {
+    return "has not one colour for each surface point";
+  }
   if (!view.sensor_origin.allFinite()) return "has a sensor origin that is not finite";
   if (!view.box_min.allFinite() || !view.box_max.allFinite()) return "has a box that is not finite";
   if ((view.box_min.array() > view.box_max.array()).any()) return "has a box of negative size";
   const auto finite = [](const Eigen::Vector3f& v) { return v.allFinite(); };
-  if (!std::all_of(view.surface_points.begin(), view.surface_points.end(), finite) ||
-      !std::all_of(view.surface_normals.begin(), view.surface_normals.end(), finite)) {
-    return "has a surface that is not finite";
+  for (const auto* surface : {&view.surface_points, &view.surface_normals, &view.surface_colors}) {
+    if (!std::all_of(surface->begin(), surface->end(), finite)) return "has a surface that is not finite";
   }
   return "";
 }

@@ -40,6 +40,7 @@ TrainingView fromFormat(const format::View& from) {
   view.box_max = fromFormat(*from.box_max());
   view.surface_points = fromFormat(*from.surface_points());
   view.surface_normals = fromFormat(*from.surface_normals());
+  if (from.surface_colors() != nullptr) view.surface_colors = fromFormat(*from.surface_colors());
   return view;
 }
 

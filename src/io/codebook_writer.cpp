@@ -32,9 +32,10 @@ Offset<format::View> toFormat(flatbuffers::FlatBufferBuilder& builder, const Tra
   const auto frame = view.frame.empty() ? Offset<flatbuffers::String>() : builder.CreateSharedString(view.frame);
   const auto points = toFormat(builder, view.surface_points);
   const auto normals = toFormat(builder, view.surface_normals);
+  const auto colors = toFormat(builder, view.surface_colors);
   const format::Vec3 origin = toFormat(view.sensor_origin), low = toFormat(view.box_min), high = toFormat(view.box_max);
   return format::CreateView(builder, view.object, source, format::ViewKind(view.kind), &origin, &low, &high, points,
-                            normals, frame);
+                            normals, frame, colors);
 }
 
 /// What the metadata will take at most, known before FlatBuffers' own limit ends the process.
@@ -43,7 +44,7 @@ std::uint64_t metadataBound(const Codebook& codebook) {
   bytes += codebook.words.size() * sizeof(format::Word);
   for (const std::string& object : codebook.objects) bytes += object.size() + 32;
   for (const TrainingView& view : codebook.views) {
-    bytes += 256 + view.source.size() + view.frame.size() + 2 * view.surface_points.size() * sizeof(format::Vec3);
+    bytes += 256 + view.source.size() + view.frame.size() + 3 * view.surface_points.size() * sizeof(format::Vec3);
   }
   return bytes;
 }
