@@ -27,6 +27,8 @@ double chiSquared(const float* a, const float* b, std::size_t size);
 /// How nearest codewords are found; `automatic` is exact up to 65,536 codewords.
 enum class SearchKind { automatic, exact, approximate };
 
+bool searchesExactly(SearchKind search, std::size_t words);
+
 /// Nearest neighbour under chi squared (docs/method.md). Immutable once built: match() may be called from several
 /// threads.
 class Matcher {

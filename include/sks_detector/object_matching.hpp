@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
+#include <memory>
 #include <vector>
 
 #include <sks_detector/codebook.hpp>
@@ -9,9 +10,12 @@
 
 namespace sks {
 
+class NearestWord;
+
 /// Finds for each descriptor the nearest codeword of all, and that of every other object that is nearly as near: where
 /// objects resemble each other, or the nearest training view is far from the sensor's, the nearest of all often belongs
-/// to another object. Immutable once built: match() may be called from several threads.
+/// to another object. Exact up to 65,536 codewords, as Matcher. Immutable once built: match() may be called from
+/// several threads.
 class ObjectMatcher {
 public:
   /// Keeps a reference to the descriptors' storage. @throws Error(bad_data) if they hold a negative or non-finite value
@@ -25,15 +29,8 @@ public:
   std::vector<Match> match(const DescriptorMatrix& queries, double ambiguity, int threads) const;
 
 private:
-  /// Neighbouring codewords of one object.
-  struct Run {
-    std::uint32_t object;
-    std::uint32_t first_word;
-    Matcher matcher;
-  };
-
   std::size_t objects_;
-  std::vector<Run> runs_;
+  std::shared_ptr<const NearestWord> index_;
 };
 
 }  // namespace sks

@@ -10,7 +10,10 @@
 namespace sks {
 namespace {
 
-constexpr std::size_t merged_bins = 128;  // of SHOT's 352, 99 % of the distance are left
+/// Of SHOT's 352 bins 99 % of the distance are left; of CSHOT's 1344 twice as many are needed.
+std::size_t mergedBins(std::size_t bins) {
+  return bins <= shot_size ? 128 : 256;
+}
 
 std::uint32_t bitsOf(float value) {
   std::uint32_t bits;
@@ -33,7 +36,7 @@ float fromBfloat16(std::uint16_t half) {
 }  // namespace
 
 MergedWords::MergedWords(const DescriptorMatrix& words, const std::vector<std::uint32_t>& order)
-    : merge_(learnBoundCascade(words, {merged_bins}).front()), rows_(order.size() * merge_.padded()) {
+    : merge_(learnBoundCascade(words, {mergedBins(words.cols())}).front()), rows_(order.size() * merge_.padded()) {
   std::vector<float> merged(merge_.padded()), kept(merged.size());
   for (std::size_t slot = 0; slot < order.size(); ++slot) {
     if (order[slot] == WordClusters::no_word) continue;

@@ -28,9 +28,11 @@ void checkHistograms(const DescriptorMatrix& words) {
   }
 }
 
-/// The highest bound of a word that may be nearest.
-float highestBound(const NearestWord::Search& search) {
-  return search.best * (1 + rounding) + search.query.slack;
+constexpr float nothing = std::numeric_limits<float>::infinity();
+
+/// The largest distance of a word of the group that may be wanted.
+float limitOf(const NearestWord::Search& search, std::uint32_t group) {
+  return std::min(search.best_of_group[group], search.factor * search.best) * (1 + rounding);
 }
 
 void dropAbove(float highest, NearestWord::Search& search) {
@@ -63,7 +65,9 @@ void keepLowest(std::size_t kept, NearestWord::Search& search, std::vector<float
 
 }  // namespace
 
-NearestWord::NearestWord(DescriptorMatrix words, bool exact) : words_(std::move(words)) {
+NearestWord::NearestWord(DescriptorMatrix words, bool exact, const std::vector<std::uint32_t>& group_of_word,
+                         std::size_t groups)
+    : words_(std::move(words)), groups_(groups) {
   checkHistograms(words_);
   if (words_.rows() == 0) return;
   codes_ = WordCodes(words_);
@@ -75,15 +79,56 @@ NearestWord::NearestWord(DescriptorMatrix words, bool exact) : words_(std::move(
     if (order[slot] != WordClusters::no_word) table_.set(slot, codes[order[slot]]);
   }
   merged_ = MergedWords(words_, order);
+  if (groups == 1) return;
+  group_of_slot_.resize(order.size());
+  groups_of_tile_.resize(table_.blocks() / tile_blocks + 1);
+  for (std::size_t slot = 0; slot < order.size(); ++slot) {
+    if (order[slot] == WordClusters::no_word) continue;
+    group_of_slot_[slot] = group_of_word[order[slot]];
+    std::vector<std::uint32_t>& tile = groups_of_tile_[slot / (tile_blocks * block_words)];
+    if (std::find(tile.begin(), tile.end(), group_of_slot_[slot]) == tile.end()) tile.push_back(group_of_slot_[slot]);
+  }
 }
 
-std::size_t NearestWord::batch(std::size_t queries, std::size_t threads) const {
-  if (exact()) return 32;
-  return std::max<std::size_t>(32, (queries + threads - 1) / threads);  // the more, the more often a cluster is reused
+/// Distance to the word, which may be the best one so far.
+float NearestWord::measure(Search& search, std::uint32_t slot) const {
+  const float distance = chiSquaredFast(search.histogram, words_.row(clusters_.order()[slot]), words_.cols());
+  float& of_group = search.best_of_group[groupOf(slot)];
+  of_group = std::min(of_group, distance);
+  search.best = std::min(search.best, distance);
+  return distance;
 }
 
-float NearestWord::distanceTo(const Search& search, std::uint32_t slot) const {
-  return chiSquaredFast(search.histogram, words_.row(clusters_.order()[slot]), words_.cols());
+/// The word of the lowest bound is likely to be near: its distance rules most others out.
+void NearestWord::measureLikely(Search& search, std::uint32_t slot, float bound) const {
+  float& lowest = search.lowest_of_group[groupOf(slot)];
+  if (!(bound < lowest)) return;
+  lowest = bound;
+  measure(search, slot);
+}
+
+/// The largest distance of a word of the tile that may be wanted.
+float NearestWord::limitOfTile(const Search& search, std::size_t first_block) const {
+  if (groups_ == 1) return limitOf(search, 0);
+  if (!exact()) return search.factor * search.best * (1 + rounding);
+  float limit = 0;
+  for (const std::uint32_t group : groups_of_tile_[first_block / tile_blocks]) {
+    limit = std::max(limit, limitOf(search, group));
+  }
+  return limit;
+}
+
+/// @param highest_within the highest bound of a word within a distance
+template <typename HighestWithin>
+void NearestWord::dropHopeless(Search& search, HighestWithin&& highest_within) const {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < search.slots.size(); ++i) {
+    if (search.bounds[i] > highest_within(limitOf(search, groupOf(search.slots[i])))) continue;
+    search.slots[kept] = search.slots[i];
+    search.bounds[kept++] = search.bounds[i];
+  }
+  search.slots.resize(kept);
+  search.bounds.resize(kept);
 }
 
 void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* const* searches, std::size_t count,
@@ -98,13 +143,10 @@ void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* con
   codeDistances(queries, table_, first_block, blocks, bounds);
   for (std::size_t q = 0; q < count; ++q) {
     Search& search = *searches[q];
-    // The word of the lowest bound is likely to be near: its distance rules most others out.
     const std::size_t likely = indexOfSmallest(bounds[q], words);
-    if (bounds[q][likely] < search.lowest_bound) {
-      search.lowest_bound = bounds[q][likely];
-      search.best = std::min(search.best, distanceTo(search, std::uint32_t(first_block * block_words + likely)));
-    }
-    const std::size_t kept = selectUpTo(highestBound(search), bounds[q], words, work.selected.data());
+    measureLikely(search, std::uint32_t(first_block * block_words + likely), bounds[q][likely]);
+    const float highest = limitOfTile(search, first_block) + search.query.slack;
+    const std::size_t kept = selectUpTo(highest, bounds[q], words, work.selected.data());
     for (std::size_t i = 0; i < kept; ++i) {
       search.slots.push_back(std::uint32_t(first_block * block_words + work.selected[i]));
       search.bounds.push_back(bounds[q][work.selected[i]]);
@@ -112,28 +154,30 @@ void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* con
   }
 }
 
-Match NearestWord::nearest(Search& search, Workspace& work) const {
-  dropAbove(highestBound(search), search);
+void NearestWord::finish(Search& search, Match* matches, Workspace& work) const {
+  dropHopeless(search, [&](float distance) { return distance + search.query.slack; });
   if (!exact()) keepLowest(candidates_kept, search, work.sorted);
   merged_.merge(search.histogram, work.merged);
   merged_.distances(work.merged, search.slots, search.bounds);
-  if (!search.slots.empty()) {
-    const std::size_t likely = indexOfSmallest(search.bounds.data(), search.bounds.size());
-    search.best = std::min(search.best, distanceTo(search, search.slots[likely]));
-  }
-  dropAbove(merged_.highestWithin(search.best * (1 + rounding)), search);
+  const auto highestWithin = [&](float distance) { return merged_.highestWithin(distance); };
+  search.lowest_of_group.assign(groups_, nothing);
+  for (std::size_t i = 0; i < search.slots.size(); ++i) measureLikely(search, search.slots[i], search.bounds[i]);
+  dropHopeless(search, highestWithin);
   for (std::size_t i = 0; i < search.slots.size(); ++i) {
-    search.bounds[i] = distanceTo(search, search.slots[i]);
-    search.best = std::min(search.best, search.bounds[i]);
+    const std::uint32_t slot = search.slots[i];
+    const bool hopeless = search.bounds[i] > highestWithin(limitOf(search, groupOf(slot)));
+    search.bounds[i] = hopeless ? nothing : measure(search, slot);
   }
   // Between near ties double precision decides.
-  dropAbove(search.best * (1 + rounding), search);
-  std::pair<double, std::uint32_t> nearest(std::numeric_limits<double>::infinity(), 0);
+  dropHopeless(search, [](float distance) { return distance; });
+  for (std::size_t group = 0; group < groups_; ++group) matches[group] = {0, 0, nothing};
+  work.nearest.assign(groups_, {std::numeric_limits<double>::infinity(), 0});
   for (const std::uint32_t slot : search.slots) {
     const std::uint32_t word = clusters_.order()[slot];
+    auto& nearest = work.nearest[groupOf(slot)];
     nearest = std::min(nearest, {chiSquared(search.histogram, words_.row(word), words_.cols()), word});
+    matches[groupOf(slot)] = {0, nearest.second, float(nearest.first)};
   }
-  return {0, nearest.second, float(nearest.first)};
 }
 
 void NearestWord::visitAll(std::size_t count, Workspace& work) const {
@@ -202,29 +246,53 @@ void NearestWord::visitNearest(std::size_t count, Workspace& work) const {
   }
 }
 
-void NearestWord::find(const DescriptorMatrix& queries, std::size_t first, std::size_t count, Match* matches,
-                       Workspace& work) const {
+void NearestWord::start(Search& search, const float* histogram, float factor, Workspace& work) const {
+  search.histogram = histogram;
+  search.factor = factor;
+  codes_.encode(histogram, work.projection, search.query);
+  if (!exact()) estimate(search.query);
+  search.best = nothing;
+  search.best_of_group.assign(groups_, nothing);
+  search.lowest_of_group.assign(groups_, nothing);
+  search.slots.clear();
+  search.bounds.clear();
+}
+
+void NearestWord::find(const DescriptorMatrix& queries, std::size_t first, std::size_t count, float factor,
+                       Match* matches, Workspace& work) const {
   work.searches.resize(std::max(work.searches.size(), count));
   work.bounds.resize(queries_at_once * tile_blocks * block_words);
   work.selected.resize(std::max(work.selected.size(), tile_blocks * block_words + selection_room));
-  for (std::size_t i = 0; i < count; ++i) {
-    Search& search = work.searches[i];
-    search.histogram = queries.row(first + i);
-    codes_.encode(search.histogram, work.projection, search.query);
-    if (!exact()) estimate(search.query);
-    search.lowest_bound = search.best = std::numeric_limits<float>::infinity();
-    search.slots.clear();
-    search.bounds.clear();
-  }
+  for (std::size_t i = 0; i < count; ++i) start(work.searches[i], queries.row(first + i), factor, work);
   if (exact()) {
     visitAll(count, work);
   } else {
     visitNearest(count, work);
   }
   for (std::size_t i = 0; i < count; ++i) {
-    matches[i] = nearest(work.searches[i], work);
-    matches[i].descriptor = std::uint32_t(first + i);
+    finish(work.searches[i], matches + i * groups_, work);
+    for (std::size_t group = 0; group < groups_; ++group)
+      matches[i * groups_ + group].descriptor = std::uint32_t(first + i);
   }
+}
+
+std::vector<Match> NearestWord::find(const DescriptorMatrix& queries, float factor, int threads) const {
+  if (queries.cols() != words_.cols()) {
+    throw Error(ErrorCode::incompatible, "descriptors of " + std::to_string(queries.cols()) +
+                                             " bins cannot be matched with codewords of " +
+                                             std::to_string(words_.cols()));
+  }
+  std::vector<Match> matches(queries.rows() * groups_);
+  std::size_t batch = 32;
+  if (!exact()) {  // the more at once, the more often a cluster is reused
+    batch = std::max(batch, (queries.rows() + std::size_t(threads) - 1) / std::size_t(threads));
+  }
+#pragma omp parallel for schedule(dynamic) num_threads(threads)
+  for (std::size_t first = 0; first < queries.rows(); first += batch) {
+    static thread_local Workspace work;  // kept from frame to frame
+    find(queries, first, std::min(batch, queries.rows() - first), factor, &matches[first * groups_], work);
+  }
+  return matches;
 }
 
 }  // namespace sks
