@@ -61,6 +61,7 @@ void codebooks(const std::string& folder) {
   for (sks::TrainingView& view : codebook.views) {
     view.surface_points.resize(3);
     view.surface_normals.resize(3);
+    view.surface_colors.resize(3);
     view.frame = "common";
   }
   sks::writeCodebook(corpus.path("two_words"), codebook);

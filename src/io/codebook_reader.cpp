@@ -75,8 +75,9 @@ bool takesWhatItStores(const format::Codebook& from, std::uint64_t stored) {
   for (const auto* object : *from.objects()) bytes += object->size();
   for (const auto* view : *from.views()) {
     if (view->frame() != nullptr && view->frame()->size() > longest_frame) return false;
-    bytes += least_view + view->source()->size() + view->surface_points()->size() * sizeof(format::Vec3) +
-             view->surface_normals()->size() * sizeof(format::Vec3);
+    const std::uint64_t colors = view->surface_colors() != nullptr ? view->surface_colors()->size() : 0;
+    const std::uint64_t vectors = view->surface_points()->size() + view->surface_normals()->size() + colors;
+    bytes += least_view + view->source()->size() + vectors * sizeof(format::Vec3);
   }
   return bytes <= stored;
 }
