@@ -7,6 +7,7 @@
 #include <random>
 #include <thread>
 
+#include <fcntl.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -212,6 +213,7 @@ namespace {
 pid_t startTraining(const std::string& data_set, const std::string& output, const std::string& setting) {
   const pid_t child = ::fork();
   if (child != 0) return child;
+  ::dup2(::open("/dev/null", O_WRONLY), STDOUT_FILENO);
   ::execl(SKS_EXECUTABLE, "sks", "train", "-d", data_set.c_str(), "-o", output.c_str(), "--set", setting.c_str(),
           nullptr);
   ::_exit(127);

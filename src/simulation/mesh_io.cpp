@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -15,6 +16,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include <sks_detector/error.hpp>
+
+#include "io/ply_file.hpp"
 
 namespace sks {
 namespace {
@@ -145,13 +148,22 @@ void applyScale(const std::string& path, double scale, LoadedMesh& loaded) {
   for (Eigen::Vector3f& v : loaded.mesh.vertices) v *= float(scale);
 }
 
-/// Of the dozens of formats that assimp reads, those that are tested.
+/// Of the dozens of formats that assimp reads, those that are tested. The header of a PLY file is read by us first: over
+/// one that is cut off assimp's reader never ends.
 void checkFormat(const std::string& path) {
   std::string ending = fs::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });
   const std::array<const char*, 4> known = {".obj", ".ply", ".stl", ".dae"};
-  if (std::find(known.begin(), known.end(), ending) != known.end()) return;
-  fail(path, "it is not called like an OBJ, PLY, STL or DAE file");
+  if (std::find(known.begin(), known.end(), ending) == known.end()) {
+    fail(path, "it is not called like an OBJ, PLY, STL or DAE file");
+  }
+  if (ending != ".ply") return;
+  std::ifstream file(path, std::ios::binary);
+  try {
+    readPlyHeader(file);
+  } catch (const Error& reason) {
+    fail(path, reason.what());
+  }
 }
 
 }  // namespace

@@ -50,6 +50,13 @@ TEST_F(MeshFile, OtherFormatsAreNotTried) {
   EXPECT_EQ(loadMesh(write("A.OBJ", triangle)).mesh.triangles.size(), 1u);
 }
 
+/// Over these assimp's reader does not end.
+TEST_F(MeshFile, CutOffPlyHeadersAreRefused) {
+  const std::string header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n";
+  EXPECT_THAT(refusal(write("a.ply", header)), HasSubstr("has no line end_header"));
+  EXPECT_THAT(refusal(write("b.ply", header + "prope2\n")), HasSubstr("has no line end_header"));
+}
+
 TEST_F(MeshFile, LargeMeshIsTakenForMillimetresAndSaysSo) {
   const std::string path = write("a.obj", "v 0 0 0\nv 200 0 0\nv 0 100 0\nf 1 2 3\n");
   const LoadedMesh loaded = loadMesh(path);
