@@ -118,7 +118,7 @@ TEST_P(SceneMethod, FindsNothingWhereNothingCanBeDescribed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Baselines, SceneMethod, ::testing::Values("tombari", "chen", "aldoma", "zhou"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& tested) { return std::string(tested.param); });
 
 Settings shapeSettings() {
   Settings settings = wholeGrid();
@@ -170,7 +170,7 @@ TEST_P(IsolatedMethod, IsDeterministicAndSharesAddUpToOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Baselines, IsolatedMethod, ::testing::Values("tombari", "chen", "zhou", "knopp", "seib"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& tested) { return std::string(tested.param); });
 
 // PCL's RANSAC tells correspondences apart by the model's keypoint alone.
 TEST(FramedModels, GivesEachMatchAKeypointOfItsOwn) {

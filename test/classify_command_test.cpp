@@ -89,6 +89,19 @@ TEST_F(ClassifyCommand, PublishedMethodDropsHalfOfTheKeypoints) {
   EXPECT_EQ(counts["keypoints"], all - all / 2);
 }
 
+TEST_F(ClassifyCommand, ComparesWithOtherMethods) {
+  for (const char* name : {"knopp", "seib"}) {
+    const CommandRun run = classify({"--method", name, "--json", "-"});
+    ASSERT_EQ(run.status, 0) << run.errors;
+    const json result = json::parse(run.output);
+    EXPECT_EQ(result["method"], name);
+    EXPECT_EQ(result["correct"], 2) << name;
+  }
+  const CommandRun run = classify({"--method", "aldoma"});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.errors, HasSubstr("use --method chen"));
+}
+
 TEST_F(ClassifyCommand, TakesACodebookAndItsSettings) {
   const std::string codebook = folder_.path("shapes.sks");
   ASSERT_EQ(classify({"--save-codebook", codebook, "--set", "descriptor.radius=0.12"}).status, 0);

@@ -175,6 +175,33 @@ TEST_F(EvaluateCommand, PaperStartsFromItsPreset) {
   EXPECT_EQ(result["true_positives"], 1);
 }
 
+TEST_F(EvaluateCommand, ComparesWithOtherMethods) {
+  const json result = evaluated({"--method", "tombari", "--set", "tombari.bin_size=0.04"});
+  EXPECT_EQ(result["method"], "tombari");
+  EXPECT_EQ(result["true_positives"], 1);
+  EXPECT_EQ(result["settings"]["tombari.bin_size"], 0.04);
+  EXPECT_EQ(result["settings"]["keypoints.discard"], 0.0);  // of its preset
+  EXPECT_FALSE(result["settings"].contains("chen.resolution"));
+  const json selected = evaluated({"--method", "chen", "--set", "keypoints.discard=0.25"});
+  const json counts = selected["per_scene"][0]["counts"];
+  const int all = counts["grid_keypoints"];
+  EXPECT_EQ(counts["keypoints"], all - all / 4);
+}
+
+TEST_F(EvaluateCommand, RefusesMethodsAndSettingsThatDoNotFit) {
+  for (const char* name : {"knopp", "seib"}) {
+    const CommandRun run = evaluate({"--method", name});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(run.errors, HasSubstr("it says what an isolated object is, but has no pose: use sks classify"));
+  }
+  const CommandRun other = evaluate({"--method", "tombari", "--set", "chen.resolution=0.02"});
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.errors, HasSubstr("setting 'chen.resolution' has no effect on --method tombari"));
+  const CommandRun misspelt = evaluate({"--method", "tombari", "--set", "tombari.binsize=0.02"});
+  EXPECT_EQ(misspelt.status, 2);
+  EXPECT_THAT(misspelt.errors, HasSubstr("did you mean 'tombari.bin_size'?"));
+}
+
 TEST_F(EvaluateCommand, PrintsTables) {
   const CommandRun run = evaluate();
   EXPECT_EQ(run.status, 0) << run.errors;
