@@ -17,26 +17,64 @@ constexpr std::size_t most_planes = 4;
 constexpr std::size_t trials = 150;
 constexpr double smallest_share = 0.02;  // of the samples
 
-std::vector<std::uint32_t> membersOf(const LargePlane& plane, const Surface& scene,
-                                     const std::vector<std::uint32_t>& samples) {
+/// Points that planes are sought in, side by side.
+struct Samples {
+  std::size_t size() const { return x.size(); }
+  Eigen::Vector3f point(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  Eigen::Vector3f normal(std::size_t i) const { return {nx[i], ny[i], nz[i]}; }
+  void add(const Eigen::Vector3f& point, const Eigen::Vector3f& normal) {
+    x.push_back(point.x());
+    y.push_back(point.y());
+    z.push_back(point.z());
+    nx.push_back(normal.x());
+    ny.push_back(normal.y());
+    nz.push_back(normal.z());
+  }
+
+  std::vector<float> x, y, z, nx, ny, nz;
+};
+
+/// How many of the samples belong to the plane: without branches, so that the compiler takes several at once.
+int countOf(const LargePlane& plane, const Samples& samples) {
+  const Eigen::Vector3f n = plane.normal;
+  const float offset = plane.offset;
+  const float *x = samples.x.data(), *y = samples.y.data(), *z = samples.z.data();
+  const float *nx = samples.nx.data(), *ny = samples.ny.data(), *nz = samples.nz.data();
+  const int size = int(samples.size());
+  int count = 0;
+  for (int i = 0; i < size; ++i) {
+    const float distance = std::abs(n.x() * x[i] + n.y() * y[i] + n.z() * z[i] - offset);
+    const float cosine = n.x() * nx[i] + n.y() * ny[i] + n.z() * nz[i];
+    count += int(distance < thickness) & int(cosine > agreement);
+  }
+  return count;
+}
+
+std::vector<std::uint32_t> membersOf(const LargePlane& plane, const Samples& samples) {
   std::vector<std::uint32_t> members;
-  for (const std::uint32_t i : samples) {
-    if (plane.contains(scene.point(i), scene.normal(i))) members.push_back(i);
+  for (std::uint32_t i = 0; i < samples.size(); ++i) {
+    if (plane.contains(samples.point(i), samples.normal(i))) members.push_back(i);
   }
   return members;
 }
 
-LargePlane mostSupported(const Surface& scene, const std::vector<std::uint32_t>& samples, std::mt19937& random) {
+Samples without(const LargePlane& plane, const Samples& samples) {
+  Samples rest;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!plane.contains(samples.point(i), samples.normal(i))) rest.add(samples.point(i), samples.normal(i));
+  }
+  return rest;
+}
+
+LargePlane mostSupported(const Samples& samples, std::mt19937& random) {
   LargePlane best;
-  std::size_t most = 0;
+  int most = 0;
   for (std::size_t trial = 0; trial < trials; ++trial) {
-    const std::uint32_t i = samples[random() % samples.size()];
+    const std::size_t i = random() % samples.size();
     LargePlane plane;
-    plane.normal = scene.normal(i);
-    plane.offset = plane.normal.dot(scene.point(i));
-    const std::size_t count = std::size_t(std::count_if(samples.begin(), samples.end(), [&](std::uint32_t j) {
-      return plane.contains(scene.point(j), scene.normal(j));
-    }));
+    plane.normal = samples.normal(i);
+    plane.offset = plane.normal.dot(samples.point(i));
+    const int count = countOf(plane, samples);
     if (count > most) {
       most = count;
       best = plane;
@@ -45,13 +83,13 @@ LargePlane mostSupported(const Surface& scene, const std::vector<std::uint32_t>&
   return best;
 }
 
-LargePlane fitted(const LargePlane& plane, const Surface& scene, const std::vector<std::uint32_t>& members) {
+LargePlane fitted(const LargePlane& plane, const Samples& samples, const std::vector<std::uint32_t>& members) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const std::uint32_t i : members) mean += scene.point(i).cast<double>();
+  for (const std::uint32_t i : members) mean += samples.point(i).cast<double>();
   mean /= double(members.size());
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   for (const std::uint32_t i : members) {
-    const Eigen::Vector3d offset = scene.point(i).cast<double>() - mean;
+    const Eigen::Vector3d offset = samples.point(i).cast<double>() - mean;
     covariance += offset * offset.transpose();
   }
   covariance /= double(members.size());
@@ -71,25 +109,23 @@ bool LargePlane::contains(const Eigen::Vector3f& point, const Eigen::Vector3f& p
 }
 
 std::vector<LargePlane> findLargePlanes(const Surface& scene) {
-  std::vector<std::uint32_t> samples;
+  Samples samples;
   for (std::size_t i = 0; i < scene.size(); i += scene.size() / most_samples + 1) {
-    if (scene.normal(i).allFinite()) samples.push_back(std::uint32_t(i));
+    if (scene.normal(i).allFinite()) samples.add(scene.point(i), scene.normal(i));
   }
   const std::size_t fewest = std::max<std::size_t>(50, std::size_t(smallest_share * double(samples.size())));
   std::mt19937 random(1);
   std::vector<LargePlane> planes;
   while (planes.size() < most_planes && samples.size() >= fewest) {
-    LargePlane plane = mostSupported(scene, samples, random);
-    std::vector<std::uint32_t> members = membersOf(plane, scene, samples);
+    LargePlane plane = mostSupported(samples, random);
+    std::vector<std::uint32_t> members = membersOf(plane, samples);
     for (int i = 0; i < 3 && members.size() >= fewest; ++i) {
-      plane = fitted(plane, scene, members);
-      members = membersOf(plane, scene, samples);
+      plane = fitted(plane, samples, members);
+      members = membersOf(plane, samples);
     }
     if (members.size() < fewest) break;
     planes.push_back(plane);
-    samples.erase(std::remove_if(samples.begin(), samples.end(),
-                                 [&](std::uint32_t i) { return plane.contains(scene.point(i), scene.normal(i)); }),
-                  samples.end());
+    samples = without(plane, samples);
   }
   return planes;
 }

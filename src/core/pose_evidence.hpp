@@ -17,11 +17,7 @@ namespace sks {
 
 /// A scene as poses are compared with it. Refers to the surface.
 struct SceneView {
-  SceneView(const Surface& scene, const Settings& settings)
-      : surface(scene),
-        range_image(scene, float(settings.surface.normal_radius)),
-        planes(findLargePlanes(scene)),
-        color_tolerance(scene.hasColor() ? float(settings.verification.color_tolerance) : 0) {}
+  SceneView(const Surface& scene, const Settings& settings, int threads = 1);
 
   /// Whether the colours of a view are compared with those of the scene.
   bool comparesColor(const TrainingView& view) const { return color_tolerance > 0 && !view.surface_colors.empty(); }

@@ -40,8 +40,9 @@ RangeImage::RangeImage(const Surface& scene, float radius) : origin_(scene.senso
   axes_.row(2) = view;
 
   Eigen::AlignedBox2f bounds;
+  std::vector<Eigen::Vector3f> projected(scene.size());
   for (std::size_t i = 0; i < scene.size(); ++i) {
-    const Eigen::Vector3f p = project(scene.point(i));
+    const Eigen::Vector3f& p = projected[i] = project(scene.point(i));
     if (p.z() >= 0) bounds.extend(p.head<2>());
   }
   if (bounds.isEmpty()) return;
@@ -58,7 +59,7 @@ RangeImage::RangeImage(const Surface& scene, float radius) : origin_(scene.senso
   points_.assign(nearest_.size(), no_point);
   std::vector<float> nearest_normal(nearest_.size(), std::numeric_limits<float>::infinity());
   for (std::size_t i = 0; i < scene.size(); ++i) {
-    const Eigen::Vector3f p = project(scene.point(i));
+    const Eigen::Vector3f& p = projected[i];
     if (p.z() < 0) continue;
     const std::size_t cell = std::size_t((p.y() - v0_) / cell_) * width_ + std::size_t((p.x() - u0_) / cell_);
     if (p.z() < nearest_normal[cell] && scene.normal(i).allFinite()) {

@@ -31,6 +31,7 @@ struct Sighting {
 /// about two spacings of the points wide. Immutable once built; thread-safe.
 class RangeImage {
 public:
+  RangeImage() = default;  ///< of nothing: all is unknown
   /// @param radius within which most points have a neighbour [m]
   RangeImage(const Surface& scene, float radius);
 
@@ -40,12 +41,12 @@ public:
 private:
   Eigen::Vector3f project(const Eigen::Vector3f& place) const;  // (u, v, range); range < 0 behind the sensor
 
-  Eigen::Vector3f origin_;
-  Eigen::Matrix3f axes_;  // rows: u, v, and the direction of view
+  Eigen::Vector3f origin_ = Eigen::Vector3f::Zero();
+  Eigen::Matrix3f axes_ = Eigen::Matrix3f::Identity();  // rows: u, v, and the direction of view
   float cell_ = 1;
   float u0_ = 0, v0_ = 0;
   int width_ = 0, height_ = 0;
-  std::vector<std::uint32_t> points_;    // with a normal, the nearest of each cell
+  std::vector<std::uint32_t> points_;      // with a normal, the nearest of each cell
   std::vector<float> nearest_, farthest_;  // [m]; farthest < 0 where nothing was measured
 };
 

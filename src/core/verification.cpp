@@ -20,7 +20,7 @@ constexpr double prior_area = 0.25e-4;   // [m^2] so that a share of next to not
 constexpr double color_gain = 1.4;       // of evidence: what agrees in colour too is as telling as twice the area
 constexpr double largest_claimed = 0.5;  // of the confirming points; else a hypothesis claims none itself
 
-constexpr std::size_t first_points = 400, last_points = 1500;  // of a surface, examined before and after the choice
+constexpr std::size_t first_points = 250, last_points = 1500;  // of a surface, examined before and after the choice
 constexpr double plausible_share = 0.5;  // of the evidence that scores 0.5; what has less is not worth the last rounds
 
 /// Of ICP with nearest pairs, for poses that are a fraction of a millimetre off.
@@ -113,7 +113,7 @@ Verifier::Verifier(std::shared_ptr<const Codebook> codebook) : codebook_(std::mo
 
 std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>& spaces, const Surface& surface,
                                             const Settings& settings, int threads) const {
-  const SceneView scene(surface, settings);
+  const SceneView scene(surface, settings, threads);
   const std::vector<PoseCandidate> candidates = poseCandidates(*codebook_, telling_, spaces, scene, settings, threads);
   std::vector<VoteDensity> densities;
   for (const auto& votes : spaces) densities.emplace_back(votes, settings.voting.bandwidth);
