@@ -46,8 +46,12 @@ TEST(ColorAgreement, PrintsVaryWhereTheirColorsMeet) {
   ASSERT_EQ(variation.size(), view.surface_points.size());
   for (std::size_t i = 0; i < variation.size(); ++i) {
     const float x = view.surface_points[i].x();
-    if (x < -0.0201f || x > 0.0251f) EXPECT_LT(variation[i], 1e-6f);
-    if (std::abs(x) < 0.006f) EXPECT_GT(variation[i], 0.5f);
+    if (x < -0.0201f || x > 0.0251f) {
+      EXPECT_LT(variation[i], 1e-6f);
+    }
+    if (std::abs(x) < 0.006f) {
+      EXPECT_GT(variation[i], 0.5f);
+    }
   }
   TrainingView plain = view;
   plain.surface_colors.clear();
