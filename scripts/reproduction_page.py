@@ -145,7 +145,7 @@ def machine(threads):
         model = models[0]
     with open('/proc/meminfo', encoding='utf-8') as file:
         memory = f'{int(file.readline().split()[1]) / 2 ** 20:.0f} GiB'
-    return f'{model}, {os.cpu_count()} cores, {memory}; {threads} threads, the keypoint study on one.'
+    return f'{model}, {os.cpu_count()} cores, {memory}; {threads} thread{"" if threads == 1 else "s"} a run.'
 
 
 def write(path, runs, pictures, threads):
@@ -155,7 +155,7 @@ def write(path, runs, pictures, threads):
                   for command in ('evaluate', 'classify', 'keypoints')}
     text = ['# Reproduction\n\nWritten by `scripts/reproduce`, which runs all of it again:\n\n```\n'
             'scripts/reproduce --data $SKS_DATA [D.yaml ...]\n```\n\n'
-            f'Machine: {machine(threads)} Times are wall-clock times on a machine that may have had other work.\n'
+            f'Machine: {machine(threads)} Times are wall-clock times: on a machine with other work they say little.\n'
             'Settings of the methods and how they were found: [baselines.md](baselines.md).\n'
             'The paper\'s data sets: RandomViews and Kinect of UniBo; its times are those of an i7-2760QM.\n']
     if by_command['evaluate']:
