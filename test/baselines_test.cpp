@@ -194,7 +194,8 @@ TEST(FramedModels, PoolsViewsThatShareAFrame) {
   codebook.views.resize(4);
   for (int i = 0; i < 3; ++i) codebook.views[std::size_t(i)].frame = "mesh";
   codebook.views[2].object = 1;  // the same name of a frame, but of another object
-  for (std::uint32_t view : {0, 1, 2, 3}) codebook.words.push_back({view, {}, {}});
+  for (std::uint32_t view : {0, 1, 2, 3})
+    codebook.words.push_back({view, Eigen::Vector3f::Zero(), Eigen::Matrix3f::Identity()});
   std::vector<Match> matches;
   for (std::uint32_t row = 0; row < 12; ++row) matches.push_back({row, row % 4, 0.1f});
   const auto models = baselines::FramedModels(codebook).matched(codebook, matches);
