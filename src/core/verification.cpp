@@ -17,7 +17,7 @@ namespace {
 
 constexpr double area_unit = 1e-4;       // [m^2] areas enter the evidence in cm^2
 constexpr double prior_area = 0.25e-4;   // [m^2] so that a share of next to nothing is next to nothing
-constexpr double color_gain = 1.4;       // of evidence: what agrees in colour too is as telling as twice the area
+constexpr double color_gain = 1.7;       // of evidence: what agrees in colour too is as telling as three times the area
 constexpr double largest_claimed = 0.5;  // of the confirming points; else a hypothesis claims none itself
 
 constexpr std::size_t first_points = 250, last_points = 1500;  // of a surface, examined before and after the choice

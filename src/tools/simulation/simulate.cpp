@@ -99,6 +99,12 @@ void addSimulate(CLI::App& app) {
   command->add_option("--distractors", options->scene.distractors, "other things in a scene (default: 4)")
       ->type_name("D");
   command->add_option("--region", options->scene.region, "radius in which things are dropped [m] (default: 0.2)");
+  command->add_option("--min-elevation", options->scene.min_elevation,
+                      "of the camera above the table; the lower, the more is hidden [degrees] (default: 25)");
+  command->add_option("--max-elevation", options->scene.max_elevation, "... at most [degrees] (default: 60)");
+  command->add_option("--min-distance", options->scene.min_distance,
+                      "of the camera from the middle of the table [m] (default: 0.7)");
+  command->add_option("--max-distance", options->scene.max_distance, "... at most [m] (default: 1.3)");
   command->add_option("--seed", options->scene.seed, "same seed, same files (default: 1)")->type_name("S");
   command->add_flag("--no-noise", options->no_noise, "a camera without errors");
   options->bag_option =
