@@ -175,6 +175,7 @@ TEST(Matcher, OfOneWordMatchesIt) {
 TEST(Matcher, RefusesWhatIsNoHistogramNamingWordAndBin) {
   for (const auto& [value, text] : {std::make_pair(-0.5f, "-0.5"),
                                     {std::numeric_limits<float>::infinity(), "inf"},
+                                    {1e27f, "99999"},
                                     {std::numeric_limits<float>::quiet_NaN(), "nan"}}) {
     Rows words = histograms(5, 33, 15);
     words[3][17] = value;

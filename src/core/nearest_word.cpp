@@ -20,9 +20,11 @@ constexpr std::size_t least_visited = 32, most_visited = 80;  // clusters, about
 constexpr std::size_t candidates_kept = 256;                  // of the words of clusters
 constexpr std::size_t centers_sampled = 16;                   // every one of this many
 
+constexpr float largest_bin = 1e4f;  // descriptors have the length 1; sums over far larger bins would not be finite
+
 void checkHistograms(const DescriptorMatrix& words) {
   for (std::size_t i = 0; i < words.rows() * words.cols(); ++i) {
-    if (words.data()[i] >= 0 && !std::isinf(words.data()[i])) continue;
+    if (words.data()[i] >= 0 && words.data()[i] <= largest_bin) continue;
     throw Error(ErrorCode::bad_data, "codeword " + std::to_string(i / words.cols()) + " is no histogram: bin " +
                                          std::to_string(i % words.cols()) + " is " + std::to_string(words.data()[i]));
   }
