@@ -16,7 +16,6 @@ constexpr double pixel_per_spacing = 2.5;  // wide enough that the far side does
 /// Median distance of a sample of points to their nearest neighbour.
 float pointSpacing(const Surface& surface) {
   const std::size_t step = std::max<std::size_t>(1, surface.size() / 500);
-  std::vector<PointGrid::Run> runs;
   std::vector<float> nearest;
   const Eigen::Map<const Eigen::ArrayXf> x(surface.x.data(), surface.size()), y(surface.y.data(), surface.size()),
       z(surface.z.data(), surface.size());

@@ -73,7 +73,7 @@ CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& 
   const std::string folder = objectFolder(object);
   makeFolder(folder);
   const std::string name = nextName(folder);
-  const Added added{(fs::path(folder) / name).string(),
+  Added added{(fs::path(folder) / name).string(),
                     1 + std::size_t(std::count_if(before.training.begin(), before.training.end(),
                                                   [&](const TrainingEntry& entry) { return entry.object == object; }))};
   writeCloud(added.file, view);

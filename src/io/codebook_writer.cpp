@@ -23,6 +23,7 @@ format::Vec3 toFormat(const Eigen::Vector3f& v) {
 Offset<flatbuffers::Vector<const format::Vec3*>> toFormat(flatbuffers::FlatBufferBuilder& builder,
                                                           const std::vector<Eigen::Vector3f>& vectors) {
   std::vector<format::Vec3> structs;
+  structs.reserve(vectors.size());
   for (const Eigen::Vector3f& v : vectors) structs.push_back(toFormat(v));
   return builder.CreateVectorOfStructs(structs);
 }

@@ -29,7 +29,7 @@ std::string shown(const std::string& text) {
 /// Resolves every link of what exists; the rest is taken as it stands. A link to nothing counts as nothing here, so
 /// that it would be written through later: it is refused.
 fs::path resolved(const fs::path& path) {
-  const fs::path result = fs::weakly_canonical(fs::absolute(path));
+  fs::path result = fs::weakly_canonical(fs::absolute(path));
   fs::path part;
   for (const fs::path& name : result) {
     part /= name;

@@ -17,7 +17,7 @@ constexpr std::streamoff longest_header = 1 << 20;
 bool readHeaderLine(std::istream& file, std::vector<std::string>& words) {
   words.clear();
   std::string line;
-  for (char c; line.size() < longest_line && file.get(c) && c != '\n';) line += c;
+  for (char c = 0; line.size() < longest_line && file.get(c) && c != '\n';) line += c;
   if (!file || line.size() == longest_line || file.tellg() > longest_header) return false;
   std::istringstream split(line);
   for (std::string word; split >> word;) words.push_back(word);
