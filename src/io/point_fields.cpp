@@ -52,7 +52,7 @@ T load(const std::uint8_t* from, bool swapped) {
 
 bool hostIsBigEndian() {
   const std::uint16_t one = 1;
-  std::uint8_t first;
+  std::uint8_t first = 0;
   std::memcpy(&first, &one, 1);
   return first == 0;
 }
