@@ -8,7 +8,7 @@
 #include "codebook_generated.h"
 #include "core/value_text.hpp"
 #include "io/codebook_layout.hpp"
-#include "io/mapped_file.hpp"
+#include "io/file_content.hpp"
 
 namespace sks {
 namespace {
@@ -83,7 +83,7 @@ bool takesWhatItStores(const format::Codebook& from, std::uint64_t stored) {
 }
 
 /// The descriptor section, in place.
-DescriptorMatrix descriptorsOf(const std::shared_ptr<const MappedFile>& file, const CodebookHeader& header,
+DescriptorMatrix descriptorsOf(const std::shared_ptr<const FileContent>& file, const CodebookHeader& header,
                                std::size_t columns) {
   const std::uint64_t row = columns * sizeof(float);
   if (header.descriptors_size % row != 0) fail("its descriptors have no whole rows; train it again");
@@ -91,7 +91,7 @@ DescriptorMatrix descriptorsOf(const std::shared_ptr<const MappedFile>& file, co
   return {data, std::size_t(header.descriptors_size / row), columns, file};
 }
 
-std::shared_ptr<const Codebook> read(const std::shared_ptr<const MappedFile>& file) {
+std::shared_ptr<const Codebook> read(const std::shared_ptr<const FileContent>& file) {
   const CodebookHeader header = checkCodebookHeader(file->data(), file->size());
   flatbuffers::Verifier verifier(file->data() + header.metadata_offset, header.metadata_size);
   if (!format::VerifyCodebookBuffer(verifier)) fail("its metadata is damaged; train it again");
@@ -124,7 +124,7 @@ std::shared_ptr<const Codebook> read(const std::shared_ptr<const MappedFile>& fi
 std::shared_ptr<const Codebook> readCodebook(const std::string& path) {
   try {
     const CodebookHeader model;
-    return read(std::make_shared<const MappedFile>(path, std::string(model.magic, sizeof(model.magic))));
+    return read(std::make_shared<const FileContent>(path, std::string(model.magic, sizeof(model.magic))));
   } catch (const Error& error) {
     throw Error(error.code(), "cannot read codebook '" + path + "': " + error.what());
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/mapped_file.hpp"
+#include "io/file_content.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -17,7 +17,7 @@
 namespace sks {
 namespace {
 
-/// Closes a file descriptor at the end of its scope; the mapping outlives it.
+/// Closes a file descriptor at the end of its scope.
 struct Descriptor {
   explicit Descriptor(const std::string& path) : number(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
   ~Descriptor() {
@@ -72,7 +72,7 @@ bool beginsWith(int file, const std::string& magic) {
 
 }  // namespace
 
-MappedFile::MappedFile(const std::string& path, const std::string& magic) {
+FileContent::FileContent(const std::string& path, const std::string& magic) {
   const Descriptor file(path);
   struct stat status {};
   if (file.number < 0 || ::fstat(file.number, &status) != 0) failBySystem();
@@ -80,21 +80,21 @@ MappedFile::MappedFile(const std::string& path, const std::string& magic) {
   if (!S_ISREG(status.st_mode)) throw Error(ErrorCode::bad_file, "it is no regular file");
   auto size = std::size_t(status.st_size);
   if (!magic.empty() && !beginsWith(file.number, magic)) size = std::min(size, magic.size());
-  if (size == 0) return;  // cannot be mapped
+  if (size == 0) return;  // memory of no size cannot be reserved
   void* const data = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (data == MAP_FAILED) failBySystem();
   data_ = static_cast<std::uint8_t*>(data);
-  mapped_ = size;
+  reserved_ = size;
   try {
     size_ = copy(file.number, data_, size);
   } catch (...) {
-    ::munmap(data_, mapped_);
+    ::munmap(data_, reserved_);
     throw;
   }
 }
 
-MappedFile::~MappedFile() {
-  if (data_) ::munmap(data_, mapped_);
+FileContent::~FileContent() {
+  if (data_) ::munmap(data_, reserved_);
 }
 
 }  // namespace sks

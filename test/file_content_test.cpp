@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/mapped_file.hpp"
+#include "io/file_content.hpp"
 
 #include <fstream>
 #include <string>
@@ -19,11 +19,11 @@ namespace {
 using test::errorOf;
 using ::testing::HasSubstr;
 
-class MappedFileTest : public ::testing::Test {
+class FileContentTest : public ::testing::Test {
 protected:
   void write(const std::string& content) const { test::writeFile(path_, content); }
 
-  static std::string contentOf(const MappedFile& file) {
+  static std::string contentOf(const FileContent& file) {
     return file.size() == 0 ? "" : std::string(reinterpret_cast<const char*>(file.data()), file.size());
   }
 
@@ -31,36 +31,36 @@ protected:
   const std::string path_ = folder_.path("file");
 };
 
-TEST_F(MappedFileTest, HoldsWhatTheFileHolds) {
+TEST_F(FileContentTest, HoldsWhatTheFileHolds) {
   std::string content(3000000, '\0');
   for (const std::size_t i : {std::size_t(0), std::size_t(1) << 20, content.size() - 1}) content[i] = char(1 + i % 100);
   write(content);
-  EXPECT_EQ(contentOf(MappedFile(path_)), content);
+  EXPECT_EQ(contentOf(FileContent(path_)), content);
   write("");
-  EXPECT_EQ(MappedFile(path_).size(), 0U);
+  EXPECT_EQ(FileContent(path_).size(), 0U);
 }
 
-TEST_F(MappedFileTest, DoesNotChangeWithTheFile) {
+TEST_F(FileContentTest, DoesNotChangeWithTheFile) {
   const std::string content(100000, 'a');
   write(content);
-  const MappedFile file(path_);
+  const FileContent file(path_);
   write(std::string(100000, 'b'));
   EXPECT_EQ(contentOf(file), content);
   write("");
   EXPECT_EQ(contentOf(file), content);
 }
 
-TEST_F(MappedFileTest, ReadsLittleOfAFileThatBeginsOtherwise) {
+TEST_F(FileContentTest, ReadsLittleOfAFileThatBeginsOtherwise) {
   write("codebook");
-  EXPECT_EQ(contentOf(MappedFile(path_, "code")), "codebook");
-  EXPECT_EQ(contentOf(MappedFile(path_, "coda")), "code");
-  EXPECT_EQ(contentOf(MappedFile(path_, "codebook and more")), "codebook");
+  EXPECT_EQ(contentOf(FileContent(path_, "code")), "codebook");
+  EXPECT_EQ(contentOf(FileContent(path_, "coda")), "code");
+  EXPECT_EQ(contentOf(FileContent(path_, "codebook and more")), "codebook");
 }
 
-TEST_F(MappedFileTest, HolesTakeNoMemory) {
+TEST_F(FileContentTest, HolesTakeNoMemory) {
   write("magic");
   ASSERT_EQ(::truncate(path_.c_str(), off_t(1) << 29), 0);
-  const MappedFile file(path_, "magic");
+  const FileContent file(path_, "magic");
   EXPECT_EQ(file.size(), std::size_t(1) << 29);
   std::size_t resident = 0;
   std::ifstream statm("/proc/self/statm");
@@ -68,10 +68,10 @@ TEST_F(MappedFileTest, HolesTakeNoMemory) {
   EXPECT_LT(double(resident) * double(::sysconf(_SC_PAGESIZE)), 3e8);
 }
 
-TEST_F(MappedFileTest, SaysWhyItCannotRead) {
-  EXPECT_THAT(errorOf(ErrorCode::bad_file, [&] { MappedFile file(path_); }), HasSubstr("No such file"));
-  EXPECT_THAT(errorOf(ErrorCode::bad_file, [&] { MappedFile file(folder_.path("")); }), HasSubstr("it is a folder"));
-  EXPECT_THAT(errorOf(ErrorCode::bad_file, [] { MappedFile file("/dev/null"); }), HasSubstr("no regular file"));
+TEST_F(FileContentTest, SaysWhyItCannotRead) {
+  EXPECT_THAT(errorOf(ErrorCode::bad_file, [&] { FileContent file(path_); }), HasSubstr("No such file"));
+  EXPECT_THAT(errorOf(ErrorCode::bad_file, [&] { FileContent file(folder_.path("")); }), HasSubstr("it is a folder"));
+  EXPECT_THAT(errorOf(ErrorCode::bad_file, [] { FileContent file("/dev/null"); }), HasSubstr("no regular file"));
 }
 
 }  // namespace
