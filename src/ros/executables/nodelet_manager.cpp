@@ -5,9 +5,22 @@
 #include <iostream>
 
 #include <nodelet/loader.h>
+#include <ros/console.h>
 #include <ros/ros.h>
 
 #include "ros/termination.hpp"
+
+namespace {
+
+/// Where nodelets and those who loaded them end together, nodelet calls it an error that what a broken bond would unload
+/// has gone already.
+void silenceUnloading() {
+  if (ros::console::set_logger_level("ros.nodelet", ros::console::levels::Fatal)) {
+    ros::console::notifyLoggerLevelsChanged();
+  }
+}
+
+}  // namespace
 
 int main(int argc, char** argv) try {
   ros::init(argc, argv, "manager", ros::init_options::NoSigintHandler);
@@ -15,6 +28,7 @@ int main(int argc, char** argv) try {
   sks_detector::handleTermination();
   nodelet::Loader loader;
   sks_detector::spinUntilTermination();
+  silenceUnloading();
   loader.clear();  // before its bonds break, which would unload the nodelets from another thread
   return 0;
 } catch (const std::exception& error) {
