@@ -12,8 +12,8 @@
 
 namespace {
 
-/// Where nodelets and those who loaded them end together, nodelet calls it an error that what a broken bond would unload
-/// has gone already.
+/// Where nodelets and those who loaded them end together, nodelet calls it an error that what a broken bond would
+/// unload has gone already.
 void silenceUnloading() {
   if (ros::console::set_logger_level("ros.nodelet", ros::console::levels::Fatal)) {
     ros::console::notifyLoggerLevelsChanged();
