@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include "core/compressor-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace sks {
 namespace HWY_NAMESPACE {
@@ -49,10 +51,11 @@ std::size_t selectUpToImpl(float limit, const float* values, std::size_t count, 
   const auto highest = hn::Set(d, limit);
   std::size_t selected = 0, i = 0;
   for (; i + lanes <= count; i += lanes) {
-    const auto low = hn::RebindMask(du, hn::Le(hn::LoadU(d, values + i), highest));
-    if (hn::AllFalse(du, low)) continue;
-    hn::StoreU(hn::Compress(hn::Iota(du, std::uint32_t(i)), low), du, indices + selected);
-    selected += hn::CountTrue(du, low);
+    const auto low = hn::Le(hn::LoadU(d, values + i), highest);
+    if (hn::AllFalse(d, low)) continue;
+    const Compressor<decltype(d)> compress(d, low);
+    hn::StoreU(compress(hn::Iota(du, std::uint32_t(i))), du, indices + selected);
+    selected += compress.count();
   }
   for (; i < count; ++i) {
     if (values[i] <= limit) indices[selected++] = std::uint32_t(i);

@@ -9,6 +9,8 @@
 
 #include <hwy/highway.h>
 
+#include "core/compressor-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace sks {
 namespace HWY_NAMESPACE {
@@ -26,16 +28,17 @@ std::size_t gatherRun(const Surface& surface, const float* center, float radius,
     const auto y = hn::Sub(hn::LoadU(d, surface.y.data() + i), cy);
     const auto z = hn::Sub(hn::LoadU(d, surface.z.data() + i), cz);
     const auto squared = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
-    const auto inside = hn::And(hn::Le(squared, limit), hn::FirstN(d, run.end - i));
-    hn::CompressStore(x, inside, d, out.x.data() + count);
-    hn::CompressStore(y, inside, d, out.y.data() + count);
-    hn::CompressStore(z, inside, d, out.z.data() + count);
-    hn::CompressStore(hn::Sqrt(squared), inside, d, out.distance.data() + count);
-    hn::CompressStore(hn::LoadU(d, surface.nx.data() + i), inside, d, out.nx.data() + count);
-    hn::CompressStore(hn::LoadU(d, surface.ny.data() + i), inside, d, out.ny.data() + count);
-    hn::CompressStore(hn::LoadU(d, surface.nz.data() + i), inside, d, out.nz.data() + count);
-    count +=
-        hn::CompressStore(hn::Iota(du, std::uint32_t(i)), hn::RebindMask(du, inside), du, out.index.data() + count);
+    const Compressor<decltype(d)> compress(d, hn::And(hn::Le(squared, limit), hn::FirstN(d, run.end - i)));
+    const auto keep = [&](auto v, auto* array) { hn::StoreU(compress(v), hn::DFromV<decltype(v)>(), array + count); };
+    keep(x, out.x.data());
+    keep(y, out.y.data());
+    keep(z, out.z.data());
+    keep(hn::Sqrt(squared), out.distance.data());
+    keep(hn::LoadU(d, surface.nx.data() + i), out.nx.data());
+    keep(hn::LoadU(d, surface.ny.data() + i), out.ny.data());
+    keep(hn::LoadU(d, surface.nz.data() + i), out.nz.data());
+    keep(hn::Iota(du, std::uint32_t(i)), out.index.data());
+    count += compress.count();
   }
   return count;
 }
