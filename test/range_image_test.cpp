@@ -39,12 +39,14 @@ TEST(RangeImage, GivesThePointThatWasSeen) {
   const RangeImage image(scene, 0.01f);
   for (const Eigen::Vector3f& place : {Eigen::Vector3f(-0.2f, 0.1f, 1.3f), Eigen::Vector3f(0.1f, 0, 0.5f)}) {
     const Sighting seen = image.look(place, 0.015f);
-    ASSERT_NE(seen.point, no_point);
-    const Eigen::Vector3f on_the_ray = place * (scene.point(seen.point).z() / place.z());
-    EXPECT_LT((scene.point(seen.point) - on_the_ray).norm(), 0.01f);
+    ASSERT_TRUE(seen.hasPoint());
+    const Eigen::Vector3f position = seen.cell->position();
+    EXPECT_LT((position - place * (position.z() / place.z())).norm(), 0.01f);
+    EXPECT_EQ(scene.point(image.pointOf(seen)), position);
+    EXPECT_EQ(scene.normal(image.pointOf(seen)), seen.cell->normal());
   }
-  EXPECT_NEAR(scene.point(image.look({0.1f, 0, 1}, 0.015f).point).z(), 0.7f, 0.002f);
-  EXPECT_EQ(image.look({0.8f, 0, 1}, 0.015f).point, no_point);
+  EXPECT_NEAR(image.look({0.1f, 0, 1}, 0.015f).cell->z, 0.7f, 0.002f);
+  EXPECT_EQ(image.pointOf(image.look({0.8f, 0, 1}, 0.015f)), no_point);
 }
 
 TEST(RangeImage, MovesWithTheSensor) {

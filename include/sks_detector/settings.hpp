@@ -187,6 +187,7 @@ struct RefinementSettings {
 struct VerificationSettings {
   int candidates = 60;
   double ambiguity = 1.3;
+  bool skip_planes = true;
   double support_distance = 0.008;
   double support_angle = 0.45;
   double occlusion_distance = 0.015;
@@ -201,6 +202,9 @@ struct VerificationSettings {
     v(s.ambiguity, "ambiguity", Range{1, 10}, "",
       "each object's nearest codeword votes too, with less weight, where its distance is within this factor of the "
       "nearest of all; 1: only the nearest, as published. Needs candidates above 0");
+    v(s.skip_planes, "skip_planes",
+      "keypoints on planes that are larger than every object (tables, walls) are not described: what lies there "
+      "confirms no pose. Needs candidates above 0");
     v(s.support_distance, "support_distance", Range{0.0005, 0.1}, "m",
       "a point of the stored surface is confirmed by a scene point within this distance");
     v(s.support_angle, "support_angle", Range{0.01, 1.5}, "rad", "... whose normal deviates by no more than this");

@@ -2,6 +2,7 @@
 #include <sks_detector/detector.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <tuple>
 
 #include "core/hough_hypotheses.hpp"
@@ -69,14 +70,24 @@ DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) con
   const bool verifies = settings_.verification.candidates > 0;
   const double ambiguity = verifies ? settings_.verification.ambiguity : 1.0;
   const auto match = [&](const DescriptorMatrix& d, int n) { return matcher_->match(d, ambiguity, n); };
-  const SceneDescription scene =
-      describeScene(cloud, Orientation::sensor, *codebook_, match, settings_, times, result.counts);
-  if (inspection) *inspection = inspectionOf(scene);
+  SceneDescription scene;
+  scene.surface = prepareScene(cloud, Orientation::sensor, *codebook_, settings_, times, result.counts);
 
   Stopwatch stage;
+  std::optional<SceneView> view;
+  KeypointFilter filter;
+  if (verifies) view.emplace(scene.surface, settings_, threads);
+  if (verifies && settings_.verification.skip_planes) {
+    filter = [&](const Keypoints& k) { return keypointsOffPlanes(k, view->planes, verifier_->largestExtent()); };
+  }
+  times.verification = stage.lap();
+  describeSurface(scene, *codebook_, match, settings_, filter, times, result.counts);
+  if (inspection) *inspection = inspectionOf(scene);
+
+  stage.lap();
   std::vector<Hypothesis> hypotheses;
   if (verifies) {
-    hypotheses = verifier_->findPoses(scene.votes, scene.surface, settings_, threads);
+    hypotheses = verifier_->findPoses(scene.votes, *view, settings_, threads);
   } else {
     const auto maxima = findAllMaxima(scene.votes, settings_, threads);
     times.voting += stage.lap();
@@ -86,7 +97,7 @@ DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) con
     result.detections.push_back(toDetection(*codebook_, hypothesis, settings_));
   }
   std::sort(result.detections.begin(), result.detections.end(), better);
-  times.verification = stage.lap();
+  times.verification += stage.lap();
   times.total = total.lap();
   result.counts.hypotheses = result.detections.size();
   return result;

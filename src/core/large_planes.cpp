@@ -2,6 +2,7 @@
 #include "core/large_planes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -66,21 +67,18 @@ Samples without(const LargePlane& plane, const Samples& samples) {
   return rest;
 }
 
-LargePlane mostSupported(const Samples& samples, std::mt19937& random) {
-  LargePlane best;
-  int most = 0;
-  for (std::size_t trial = 0; trial < trials; ++trial) {
+/// The plane through one of the samples that most of them belong to.
+LargePlane mostSupported(const Samples& samples, std::mt19937& random, int threads) {
+  std::array<LargePlane, trials> planes;
+  for (LargePlane& plane : planes) {
     const std::size_t i = random() % samples.size();
-    LargePlane plane;
     plane.normal = samples.normal(i);
     plane.offset = plane.normal.dot(samples.point(i));
-    const int count = countOf(plane, samples);
-    if (count > most) {
-      most = count;
-      best = plane;
-    }
   }
-  return best;
+  std::array<int, trials> counts;
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t trial = 0; trial < trials; ++trial) counts[trial] = countOf(planes[trial], samples);
+  return planes[std::size_t(std::max_element(counts.begin(), counts.end()) - counts.begin())];
 }
 
 LargePlane fitted(const LargePlane& plane, const Samples& samples, const std::vector<std::uint32_t>& members) {
@@ -108,7 +106,7 @@ bool LargePlane::contains(const Eigen::Vector3f& point, const Eigen::Vector3f& p
   return std::abs(normal.dot(point) - offset) < thickness && normal.dot(point_normal) > agreement;
 }
 
-std::vector<LargePlane> findLargePlanes(const Surface& scene) {
+std::vector<LargePlane> findLargePlanes(const Surface& scene, int threads) {
   Samples samples;
   for (std::size_t i = 0; i < scene.size(); i += scene.size() / most_samples + 1) {
     if (scene.normal(i).allFinite()) samples.add(scene.point(i), scene.normal(i));
@@ -117,7 +115,7 @@ std::vector<LargePlane> findLargePlanes(const Surface& scene) {
   std::mt19937 random(1);
   std::vector<LargePlane> planes;
   while (planes.size() < most_planes && samples.size() >= fewest) {
-    LargePlane plane = mostSupported(samples, random);
+    LargePlane plane = mostSupported(samples, random, threads);
     std::vector<std::uint32_t> members = membersOf(plane, samples);
     for (int i = 0; i < 3 && members.size() >= fewest; ++i) {
       plane = fitted(plane, samples, members);
@@ -137,6 +135,17 @@ float planeExtentAt(const std::vector<LargePlane>& planes, const Eigen::Vector3f
     if (plane.extent > extent && plane.contains(point, normal)) extent = plane.extent;
   }
   return extent;
+}
+
+Keypoints keypointsOffPlanes(const Keypoints& keypoints, const std::vector<LargePlane>& planes, float extent) {
+  Keypoints kept;
+  for (std::size_t i = 0; i < keypoints.size(); ++i) {
+    if (planeExtentAt(planes, keypoints.positions[i], keypoints.normals[i]) > extent) continue;
+    kept.positions.push_back(keypoints.positions[i]);
+    kept.normals.push_back(keypoints.normals[i]);
+    kept.curvature.push_back(keypoints.curvature[i]);
+  }
+  return kept;
 }
 
 }  // namespace sks

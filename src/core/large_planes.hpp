@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <sks_detector/keypoints.hpp>
 #include <sks_detector/surface.hpp>
 
 namespace sks {
@@ -19,10 +20,14 @@ struct LargePlane {
   bool contains(const Eigen::Vector3f& point, const Eigen::Vector3f& point_normal) const;
 };
 
-/// The planes with the most points, by RANSAC with a fixed seed; of a scene without any: none.
-std::vector<LargePlane> findLargePlanes(const Surface& scene);
+/// The planes with the most points, by RANSAC with a fixed seed; of a scene without any: none. The same for any number
+/// of threads.
+std::vector<LargePlane> findLargePlanes(const Surface& scene, int threads = 1);
 
 /// The largest extent of those planes that the point belongs to; 0 if it lies on none [m].
 float planeExtentAt(const std::vector<LargePlane>& planes, const Eigen::Vector3f& point, const Eigen::Vector3f& normal);
+
+/// The measured keypoints that do not lie on planes of a larger extent than this [m].
+Keypoints keypointsOffPlanes(const Keypoints& keypoints, const std::vector<LargePlane>& planes, float extent);
 
 }  // namespace sks

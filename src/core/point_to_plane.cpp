@@ -10,30 +10,34 @@ double pairDistance(const RefinementSettings& settings, int round) {
   return settings.start_distance * std::pow(settings.end_distance / settings.start_distance, progress);
 }
 
-Eigen::Isometry3d pointToPlaneStep(const std::vector<PointPair>& pairs, double scale) {
-  using Vector6 = Eigen::Matrix<double, 6, 1>;
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();  // turning about the middle keeps the equations well conditioned
-  for (const PointPair& pair : pairs) center += pair.model / double(pairs.size());
-  Eigen::Matrix<double, 6, 6> A = Eigen::Matrix<double, 6, 6>::Zero();
-  Vector6 b = Vector6::Zero();
-  for (const PointPair& pair : pairs) {
-    const double residual = pair.normal.dot(pair.scene - pair.model);
-    const double relative = residual / scale;
-    if (std::abs(relative) >= 1) continue;
-    const double tukey = (1 - relative * relative) * (1 - relative * relative);
-    Vector6 row;
-    row << (pair.model - center).cross(pair.normal), pair.normal;
-    A += tukey * row * row.transpose();
-    b += tukey * residual * row;
+void PointToPlane::add(const Eigen::Vector3d& model, const Eigen::Vector3d& scene, const Eigen::Vector3d& normal,
+                       double scale) {
+  const double residual = normal.dot(scene - model);
+  const double relative = residual / scale;
+  if (std::abs(relative) >= 1) return;
+  const double tukey = (1 - relative * relative) * (1 - relative * relative);
+  Eigen::Matrix<double, 6, 1> row;
+  row << (model - pivot_).cross(normal), normal;
+  A_ += tukey * row * row.transpose();
+  b_ += tukey * residual * row;
+}
+
+void PointToPlane::set(const double* sums) {
+  for (int r = 0; r < 6; ++r) {
+    for (int c = r; c < 6; ++c) A_(r, c) = *sums++;
   }
+  for (int r = 0; r < 6; ++r) b_[r] = *sums++;
+}
+
+Eigen::Isometry3d PointToPlane::motion() const {
+  Eigen::Matrix<double, 6, 6> damped = A_.selfadjointView<Eigen::Upper>();
   // Motions that the surface does not determine (along a plane, about an axis) stay as they are.
-  const double damping = 1e-6 * A.trace();
-  A.diagonal().array() += damping;
-  const Vector6 x = A.ldlt().solve(b);
+  damped.diagonal().array() += 1e-6 * damped.trace();
+  const Eigen::Matrix<double, 6, 1> x = damped.ldlt().solve(b_);
   const Eigen::Vector3d turn = x.head<3>();
   Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
   if (turn.norm() > 1e-12) step.linear() = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();
-  step.translation() = center + x.tail<3>() - step.linear() * center;
+  step.translation() = pivot_ + x.tail<3>() - step.linear() * pivot_;
   return step;
 }
 

@@ -43,12 +43,18 @@ struct Partner {
   float agreement = 1;  // of the colours
 };
 
-/// The scene point within `distance` whose normal agrees best; `no_point` if none does by `agreement`. Prints shift by
-/// some pixels where a pose is a little off: of those points, the one of the most similar colour counts.
-Partner partnerOf(const Placed& placed, const Eigen::Vector3f* color, const SceneView& scene, float distance,
-                  float agreement, std::vector<PointGrid::Run>& runs) {
+/// The scene point within `distance` that the sensor saw in this direction, or else the one whose normal agrees best;
+/// `no_point` if none does by `agreement`. Prints shift by some pixels where a pose is a little off: of all such points,
+/// the one of the most similar colour counts.
+Partner partnerOf(const Placed& placed, const Sighting& seen, const Eigen::Vector3f* color, const SceneView& scene,
+                  float distance, float agreement, std::vector<PointGrid::Run>& runs) {
   const Surface& surface = scene.surface;
   Partner partner;
+  if (color == nullptr && seen.hasPoint() && placed.normal.dot(seen.cell->normal()) > agreement &&
+      (seen.cell->position() - placed.point).squaredNorm() <= distance * distance) {
+    partner.point = scene.range_image.pointOf(seen);
+    return partner;
+  }
   float best = agreement, difference = std::numeric_limits<float>::infinity();
   surface.forEachNeighbor(placed.point, distance, runs, [&](std::uint32_t j, float) {
     const float cosine = placed.normal.dot(surface.normal(j));
@@ -111,11 +117,11 @@ PoseEvidence examinePose(const TrainingView& view, const Distinctiveness& tellin
     const double weighted = area * weights[i];
     evidence.facing += area;
     const Eigen::Vector3f* color = compares_color ? &view.surface_colors[i] : nullptr;
-    const Partner partner = partnerOf(placed, color, scene, distance, agreement, runs);
+    const Sighting seen = scene.range_image.look(placed.point, float(verification.occlusion_distance));
+    const Partner partner = partnerOf(placed, seen, color, scene, distance, agreement, runs);
     if (partner.point == no_point) {
-      const Sight sight = scene.range_image.look(placed.point, float(verification.occlusion_distance)).sight;
-      if (sight == Sight::unknown) evidence.weighted_visible += unmeasured * weighted;
-      if (sight == Sight::at || sight == Sight::in_front) evidence.weighted_visible += weighted;
+      if (seen.sight == Sight::unknown) evidence.weighted_visible += unmeasured * weighted;
+      if (seen.sight == Sight::at || seen.sight == Sight::in_front) evidence.weighted_visible += weighted;
       return;
     }
     const Eigen::Vector3f point = scene.surface.point(partner.point), normal = scene.surface.normal(partner.point);
@@ -137,14 +143,18 @@ RoughSupport glance(const TrainingView& view, const Distinctiveness& telling, co
   const float color_tolerance = glance_color_slack * scene.color_tolerance;
   RoughSupport support;
   forEachFacing(view, surface, T_scene_model, stride, [&](std::size_t i, const Placed& placed) {
-    const auto [sight, point] = scene.range_image.look(placed.point, glance_occlusion);
-    const bool confirmed = point != no_point && placed.normal.dot(surface.normal(point)) > glance_agreement &&
-                           (surface.point(point) - placed.point).squaredNorm() < glance_distance * glance_distance;
+    const Sighting seen = scene.range_image.look(placed.point, glance_occlusion);
+    const Sight sight = seen.sight;
+    const bool confirmed =
+        seen.hasPoint() && placed.normal.dot(seen.cell->normal()) > glance_agreement &&
+        (seen.cell->position() - placed.point).squaredNorm() < glance_distance * glance_distance;
     if (confirmed) {
       ++support.points;
       const double agreement =
           compares_color
-              ? colorAgreement(squaredColorDifference(view.surface_colors[i], surface.colorAt(point)), color_tolerance)
+              ? colorAgreement(squaredColorDifference(view.surface_colors[i],
+                                                    surface.colorAt(scene.range_image.pointOf(seen))),
+                             color_tolerance)
               : 1;
       support.supported += agreement * weights[i];
     }

@@ -3,11 +3,17 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "core/point_to_plane.hpp"
 
 namespace sks {
 namespace {
+
+/// A point of the model, mapped into the scene, with its partner there.
+struct PointPair {
+  Eigen::Vector3d model, scene, normal;
+};
 
 /// Pairs of the model's points that face the sensor with their nearest scene points.
 std::vector<PointPair> findPairs(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
@@ -44,7 +50,11 @@ Eigen::Isometry3d refinePose(const std::vector<Eigen::Vector3f>& points, const s
     const double distance = pairDistance(settings, i);
     const auto pairs = findPairs(points, normals, scene, stride, float(distance), refined, runs);
     if (pairs.size() < fewest_pairs) return i == 0 ? T_scene_model : refined;
-    refined = pointToPlaneStep(pairs, distance) * refined;
+    Eigen::Vector3d center = Eigen::Vector3d::Zero();
+    for (const PointPair& pair : pairs) center += pair.model / double(pairs.size());
+    PointToPlane system(center);
+    for (const PointPair& pair : pairs) system.add(pair.model, pair.scene, pair.normal, distance);
+    refined = system.motion() * refined;
   }
   return refined;
 }

@@ -34,33 +34,38 @@ Settings settingsFor(const Codebook& codebook, Settings settings) {
   return settings;
 }
 
-Keypoints selectedKeypoints(const Surface& surface, const Settings& settings, int threads, std::size_t* all) {
+Keypoints selectedKeypoints(const Surface& surface, const Settings& settings, int threads, std::size_t* all,
+                            const KeypointFilter& filter) {
   Keypoints keypoints = detectKeypoints(surface, settings.keypoints, threads);
   if (all != nullptr) *all = keypoints.size();
-  const bool selects = settings.keypoints.selection != SelectionRule::rank || settings.keypoints.discard > 0;
-  if (settings.keypoints.detector == KeypointDetector::grid && selects) {
-    measureCurvature(surface, keypoints, settings.keypoints, settings.surface, threads);
-    keypoints = selectKeypoints(keypoints, settings.keypoints);
-  }
-  return keypoints;
+  const bool selects = settings.keypoints.detector == KeypointDetector::grid &&
+                       (settings.keypoints.selection != SelectionRule::rank || settings.keypoints.discard > 0);
+  if (selects || filter) measureCurvature(surface, keypoints, settings.keypoints, settings.surface, threads);
+  if (selects) keypoints = selectKeypoints(keypoints, settings.keypoints);
+  return filter ? filter(keypoints) : keypoints;
 }
 
-SceneDescription describeScene(const Cloud& cloud, Orientation orientation, const Codebook& codebook,
-                               const MatchFunction& match, const Settings& settings, StageTimes& times,
-                               StageCounts& counts) {
+Surface prepareScene(const Cloud& cloud, Orientation orientation, const Codebook& codebook, const Settings& settings,
+                     StageTimes& times, StageCounts& counts) {
   checkColor(cloud, codebook);
-  const int threads = threadCount(settings);
-  SceneDescription scene;
   Stopwatch stage;
   SanitizeSettings sanitizing = settings.sanitize;
   if (orientation == Orientation::outward) sanitizing.min_range = 0;  // a model's origin is no sensor
   const Cloud sanitized = sanitize(cloud, sanitizing);
   times.sanitize = stage.lap();
 
-  scene.surface = prepareSurface(sanitized, settings.surface, orientation, threads);
+  Surface surface = prepareSurface(sanitized, settings.surface, orientation, threadCount(settings));
   times.normals = stage.lap();
+  counts.input_points = cloud.size();
+  counts.points = surface.size();
+  return surface;
+}
 
-  scene.keypoints = selectedKeypoints(scene.surface, settings, threads, &counts.grid_keypoints);
+void describeSurface(SceneDescription& scene, const Codebook& codebook, const MatchFunction& match,
+                     const Settings& settings, const KeypointFilter& filter, StageTimes& times, StageCounts& counts) {
+  const int threads = threadCount(settings);
+  Stopwatch stage;
+  scene.keypoints = selectedKeypoints(scene.surface, settings, threads, &counts.grid_keypoints, filter);
   times.keypoints = stage.lap();
 
   scene.descriptors =
@@ -73,11 +78,17 @@ SceneDescription describeScene(const Cloud& cloud, Orientation orientation, cons
   scene.votes = castVotes(codebook, scene.matches, scene.descriptors, scene.keypoints);
   times.voting = stage.lap();
 
-  counts.input_points = cloud.size();
-  counts.points = scene.surface.size();
   counts.keypoints = scene.keypoints.size();
   counts.descriptors = scene.descriptors.keypoints.size();
   counts.votes = scene.matches.size();
+}
+
+SceneDescription describeScene(const Cloud& cloud, Orientation orientation, const Codebook& codebook,
+                               const MatchFunction& match, const Settings& settings, StageTimes& times,
+                               StageCounts& counts) {
+  SceneDescription scene;
+  scene.surface = prepareScene(cloud, orientation, codebook, settings, times, counts);
+  describeSurface(scene, codebook, match, settings, {}, times, counts);
   return scene;
 }
 

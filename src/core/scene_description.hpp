@@ -2,6 +2,7 @@
 // The stages from a cloud to its votes, which all that works with a codebook has in common.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include <sks_detector/cloud.hpp>
@@ -30,10 +31,22 @@ struct SceneDescription {
 ///         codebook was trained with
 Settings settingsFor(const Codebook& codebook, Settings settings);
 
-/// The keypoints of a scene after the selection that the settings ask for. @param all where given: how many there were
-Keypoints selectedKeypoints(const Surface& surface, const Settings& settings, int threads, std::size_t* all = nullptr);
+/// What else is left out of measured keypoints, after the selection.
+using KeypointFilter = std::function<Keypoints(const Keypoints&)>;
 
-/// Sanitizes, prepares and selects keypoints, describes them, matches and votes; fills in times and counts of these.
+/// The keypoints of a scene after the selection that the settings ask for. @param all where given: how many there were
+Keypoints selectedKeypoints(const Surface& surface, const Settings& settings, int threads, std::size_t* all = nullptr,
+                            const KeypointFilter& filter = {});
+
+/// Sanitizes a cloud and prepares its surface. @throws like describeScene()
+Surface prepareScene(const Cloud& cloud, Orientation orientation, const Codebook& codebook, const Settings& settings,
+                     StageTimes& times, StageCounts& counts);
+
+/// Selects keypoints of the scene's surface, describes them, matches and votes. @param match, settings as below
+void describeSurface(SceneDescription& scene, const Codebook& codebook, const MatchFunction& match,
+                     const Settings& settings, const KeypointFilter& filter, StageTimes& times, StageCounts& counts);
+
+/// Both: from a cloud to its votes; fills in times and counts of these stages.
 /// @param match finds the codewords of descriptors of the codebook's size
 /// @param settings of settingsFor()
 /// @throws Error(bad_data) for an unusable cloud, Error(incompatible) for a cloud without colour with CSHOT

@@ -108,12 +108,14 @@ void resolveConflicts(std::vector<Examined>& examined, const Surface& scene, flo
 }  // namespace
 
 Verifier::Verifier(std::shared_ptr<const Codebook> codebook) : codebook_(std::move(codebook)) {
-  for (const TrainingView& view : codebook_->views) telling_.emplace_back(view);
+  for (const TrainingView& view : codebook_->views) {
+    telling_.emplace_back(view);
+    largest_extent_ = std::max(largest_extent_, view.extent().maxCoeff());
+  }
 }
 
-std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>& spaces, const Surface& surface,
+std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
                                             const Settings& settings, int threads) const {
-  const SceneView scene(surface, settings, threads);
   const std::vector<PoseCandidate> candidates = poseCandidates(*codebook_, telling_, spaces, scene, settings, threads);
   std::vector<VoteDensity> densities;
   for (const auto& votes : spaces) densities.emplace_back(votes, settings.voting.bandwidth);
@@ -151,12 +153,12 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
     Hypothesis hypothesis = examined[i].hypothesis;
     if (hypothesis.evidence < plausible) continue;
     const TrainingView& view = codebook_->views[hypothesis.view];
-    hypothesis.T_scene_model = refinePose(view.surface_points, view.surface_normals, surface,
+    hypothesis.T_scene_model = refinePose(view.surface_points, view.surface_normals, scene.surface,
                                           lastRounds(settings.refinement), hypothesis.T_scene_model);
     examined[i] = examine(std::move(hypothesis), last_points);
   }
   std::sort(examined.begin(), examined.end(), better);
-  resolveConflicts(examined, surface, float(settings.verification.support_distance));
+  resolveConflicts(examined, scene.surface, float(settings.verification.support_distance));
   std::sort(examined.begin(), examined.end(), better);
 
   std::vector<Hypothesis> hypotheses;

@@ -7,7 +7,6 @@
 #include <sks_detector/codebook.hpp>
 #include <sks_detector/hypothesis.hpp>
 #include <sks_detector/settings.hpp>
-#include <sks_detector/surface.hpp>
 #include <sks_detector/voting.hpp>
 
 #include "core/pose_evidence.hpp"
@@ -24,10 +23,14 @@ public:
 
   /// @param spaces votes of each object
   /// @return with their evidence, best first
-  std::vector<Hypothesis> findPoses(const std::vector<std::vector<Vote>>& spaces, const Surface& scene,
+  std::vector<Hypothesis> findPoses(const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
                                     const Settings& settings, int threads) const;
 
+  /// Of any view of the codebook along an axis [m].
+  float largestExtent() const { return largest_extent_; }
+
 private:
+  float largest_extent_ = 0;
   std::shared_ptr<const Codebook> codebook_;
   std::vector<Distinctiveness> telling_;  // of the points of each view's stored surface
 };
