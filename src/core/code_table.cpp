@@ -54,33 +54,45 @@ HWY_INLINE Sum addProducts(Pairs a, Pairs b, Sum sum) {
 }
 #endif
 
+/// Inner products of `vectors` vectors of words, the first in `column`, with four queries.
+template <std::size_t vectors>
+HWY_INLINE void innerProducts(const std::array<const CodedVector*, queries_at_once>& queries,
+                              const std::int16_t* column, Sum (&sums)[vectors][queries_at_once]) {
+  const Sums d;
+  for (auto& of_vector : sums) {
+    for (Sum& sum : of_vector) sum = hn::Zero(d);
+  }
+  for (std::size_t i = 0; i < code_size; i += 2, column += 2 * block_words) {
+    for (std::size_t v = 0; v < vectors; ++v) {
+      const Pairs words = loadPairs(column + 2 * v * hn::Lanes(d));
+      for (std::size_t q = 0; q < queries_at_once; ++q) {
+        sums[v][q] = addProducts(words, repeatPair(&queries[q]->code[i]), sums[v][q]);
+      }
+    }
+  }
+}
+
 void codeDistancesImpl(const std::array<const CodedVector*, queries_at_once>& queries, const CodeTable& table,
                        std::size_t first_block, std::size_t blocks,
                        const std::array<float*, queries_at_once>& distances) {
-  static_assert(queries_at_once == 4, "the loop below is unrolled by hand");
   const Sums d;
   const hn::RebindToFloat<Sums> df;
+  // Short vectors are taken in pairs: what is loaded of the queries then serves both.
+  constexpr std::size_t vectors = 4 * block_words >= 2 * HWY_MAX_BYTES ? 2 : 1;
   const std::size_t lanes = hn::Lanes(d);
-  for (std::size_t first = 0; first < blocks * block_words; first += lanes) {
-    const std::size_t block = first_block + first / block_words, word = first_block * block_words + first;
-    const std::int16_t* column = &table.codes[block * block_size + 2 * (first % block_words)];
-    Sum sum0 = hn::Zero(d), sum1 = sum0, sum2 = sum0, sum3 = sum0;
-    for (std::size_t i = 0; i < code_size; i += 2, column += 2 * block_words) {
-      const Pairs words = loadPairs(column);
-      sum0 = addProducts(words, repeatPair(&queries[0]->code[i]), sum0);
-      sum1 = addProducts(words, repeatPair(&queries[1]->code[i]), sum1);
-      sum2 = addProducts(words, repeatPair(&queries[2]->code[i]), sum2);
-      sum3 = addProducts(words, repeatPair(&queries[3]->code[i]), sum3);
+  for (std::size_t first = 0; first < blocks * block_words; first += vectors * lanes) {
+    const std::size_t block = first_block + first / block_words;
+    Sum sums[vectors][queries_at_once];
+    innerProducts(queries, &table.codes[block * block_size + 2 * (first % block_words)], sums);
+    for (std::size_t v = 0; v < vectors; ++v) {
+      const std::size_t at = first + v * lanes, word = first_block * block_words + at;
+      const auto of_words = hn::LoadU(df, &table.squares[word]), units = hn::LoadU(df, &table.units[word]);
+      for (std::size_t q = 0; q < queries_at_once; ++q) {
+        const auto squares = hn::Add(hn::Set(df, queries[q]->squares), of_words);
+        const auto both = hn::Mul(hn::Set(df, 2 * queries[q]->unit), units);
+        hn::StoreU(hn::NegMulAdd(both, hn::ConvertTo(df, sums[v][q]), squares), df, distances[q] + at);
+      }
     }
-    const auto store = [&](std::size_t q, Sum sum) {
-      const auto squares = hn::Add(hn::Set(df, queries[q]->squares), hn::LoadU(df, &table.squares[word]));
-      const auto units = hn::Mul(hn::Set(df, 2 * queries[q]->unit), hn::LoadU(df, &table.units[word]));
-      hn::StoreU(hn::NegMulAdd(units, hn::ConvertTo(df, sum), squares), df, distances[q] + first);
-    };
-    store(0, sum0);
-    store(1, sum1);
-    store(2, sum2);
-    store(3, sum3);
   }
 }
 

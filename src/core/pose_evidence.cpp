@@ -47,14 +47,20 @@ struct Partner {
 /// `no_point` if none does by `agreement`. Prints shift by some pixels where a pose is a little off: of all such points,
 /// the one of the most similar colour counts.
 Partner partnerOf(const Placed& placed, const Sighting& seen, const Eigen::Vector3f* color, const SceneView& scene,
-                  float distance, float agreement, std::vector<PointGrid::Run>& runs) {
+                  float distance, float agreement, Partners partners, std::vector<PointGrid::Run>& runs) {
   const Surface& surface = scene.surface;
   Partner partner;
-  if (color == nullptr && seen.hasPoint() && placed.normal.dot(seen.cell->normal()) > agreement &&
-      (seen.cell->position() - placed.point).squaredNorm() <= distance * distance) {
+  const bool seen_there = seen.hasPoint() && placed.normal.dot(seen.cell->normal()) > agreement &&
+                          (seen.cell->position() - placed.point).squaredNorm() <= distance * distance;
+  if (seen_there && (color == nullptr || partners == Partners::in_sight)) {
     partner.point = scene.range_image.pointOf(seen);
+    if (color != nullptr) {
+      const float difference = squaredColorDifference(*color, surface.colorAt(partner.point));
+      partner.agreement = colorAgreement(difference, scene.color_tolerance);
+    }
     return partner;
   }
+  if (partners == Partners::in_sight) return partner;
   float best = agreement, difference = std::numeric_limits<float>::infinity();
   surface.forEachNeighbor(placed.point, distance, runs, [&](std::uint32_t j, float) {
     const float cosine = placed.normal.dot(surface.normal(j));
@@ -102,7 +108,8 @@ Distinctiveness::Distinctiveness(const TrainingView& view) : shape(view.surface_
 }
 
 PoseEvidence examinePose(const TrainingView& view, const Distinctiveness& telling, const SceneView& scene,
-                         const Settings& settings, const Eigen::Isometry3d& T_scene_model, std::size_t most_points) {
+                         const Settings& settings, const Eigen::Isometry3d& T_scene_model, std::size_t most_points,
+                         Partners partners) {
   const VerificationSettings& verification = settings.verification;
   const std::size_t stride = view.surface_points.size() / most_points + 1;
   const double area = double(stride) * settings.training.surface_resolution * settings.training.surface_resolution;
@@ -118,7 +125,7 @@ PoseEvidence examinePose(const TrainingView& view, const Distinctiveness& tellin
     evidence.facing += area;
     const Eigen::Vector3f* color = compares_color ? &view.surface_colors[i] : nullptr;
     const Sighting seen = scene.range_image.look(placed.point, float(verification.occlusion_distance));
-    const Partner partner = partnerOf(placed, seen, color, scene, distance, agreement, runs);
+    const Partner partner = partnerOf(placed, seen, color, scene, distance, agreement, partners, runs);
     if (partner.point == no_point) {
       if (seen.sight == Sight::unknown) evidence.weighted_visible += unmeasured * weighted;
       if (seen.sight == Sight::at || seen.sight == Sight::in_front) evidence.weighted_visible += weighted;

@@ -46,10 +46,16 @@ struct PoseEvidence {
   std::vector<std::uint32_t> partners;  ///< the scene points that confirm it
 };
 
+/// Which scene points may confirm a point of a stored surface.
+enum class Partners {
+  in_sight,  ///< the one that the sensor saw in its direction
+  nearby     ///< all around it
+};
+
 /// @param most_points of the stored surface that are examined, spread evenly
 PoseEvidence examinePose(const TrainingView& view, const Distinctiveness& telling, const SceneView& scene,
                          const Settings& settings, const Eigen::Isometry3d& T_scene_model,
-                         std::size_t most_points = 1500);
+                         std::size_t most_points = 1500, Partners partners = Partners::nearby);
 
 /// A quick look at a rough pose, along the sensor's rays only: how much of up to 80 points of the view's surface the
 /// scene confirms. Points count as much as they are telling.

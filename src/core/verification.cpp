@@ -21,7 +21,8 @@ constexpr double color_gain = 1.7;       // of evidence: what agrees in colour t
 constexpr double largest_claimed = 0.5;  // of the confirming points; else a hypothesis claims none itself
 
 constexpr std::size_t first_points = 250, last_points = 1500;  // of a surface, examined before and after the choice
-constexpr double plausible_share = 0.5;  // of the evidence that scores 0.5; what has less is not worth the last rounds
+// Of the evidence that scores 0.5: what has less is not worth the last rounds, or a search for more than what is in sight.
+constexpr double plausible_share = 0.5, hopeless_share = 0.15;
 
 /// Of ICP with nearest pairs, for poses that are a fraction of a millimetre off.
 RefinementSettings lastRounds(RefinementSettings settings) {
@@ -119,7 +120,7 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
   const std::vector<PoseCandidate> candidates = poseCandidates(*codebook_, telling_, spaces, scene, settings, threads);
   std::vector<VoteDensity> densities;
   for (const auto& votes : spaces) densities.emplace_back(votes, settings.voting.bandwidth);
-  const auto examine = [&](Hypothesis hypothesis, std::size_t most_points) {
+  const auto examine = [&](Hypothesis hypothesis, std::size_t most_points, Partners partners) {
     const TrainingView& view = codebook_->views[hypothesis.view];
     hypothesis.T_scene_box = hypothesis.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
     hypothesis.box_size = view.extent().cast<double>();
@@ -127,12 +128,14 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
     hypothesis.density = densities[hypothesis.object].at(center);
     hypothesis.votes = densities[hypothesis.object].count(center);
     PoseEvidence evidence =
-        examinePose(view, telling_[hypothesis.view], scene, settings, hypothesis.T_scene_model, most_points);
+        examinePose(view, telling_[hypothesis.view], scene, settings, hypothesis.T_scene_model, most_points, partners);
     hypothesis.evidence = evidenceOf(evidence, hypothesis.density);
     if (scene.comparesColor(view)) hypothesis.evidence *= color_gain;
     return Examined{std::move(hypothesis), std::move(evidence.partners)};
   };
 
+  const double plausible = plausible_share * settings.verification.half_evidence;
+  const double hopeless = hopeless_share * settings.verification.half_evidence;
   std::vector<Examined> examined(candidates.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -142,12 +145,13 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
     hypothesis.view = candidate.view;
     hypothesis.T_scene_model =
         refineAlongRays(codebook_->views[candidate.view], scene, settings.refinement, candidate.T_scene_model);
-    examined[i] = examine(std::move(hypothesis), first_points);
+    examined[i] = examine(hypothesis, first_points, Partners::in_sight);
+    if (examined[i].hypothesis.evidence < hopeless) continue;
+    examined[i] = examine(std::move(hypothesis), first_points, Partners::nearby);
   }
   std::sort(examined.begin(), examined.end(), better);
   examined = suppressNonMaxima(std::move(examined), *codebook_, settings);
 
-  const double plausible = plausible_share * settings.verification.half_evidence;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < examined.size(); ++i) {
     Hypothesis hypothesis = examined[i].hypothesis;
@@ -155,7 +159,7 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
     const TrainingView& view = codebook_->views[hypothesis.view];
     hypothesis.T_scene_model = refinePose(view.surface_points, view.surface_normals, scene.surface,
                                           lastRounds(settings.refinement), hypothesis.T_scene_model);
-    examined[i] = examine(std::move(hypothesis), last_points);
+    examined[i] = examine(std::move(hypothesis), last_points, Partners::nearby);
   }
   std::sort(examined.begin(), examined.end(), better);
   resolveConflicts(examined, scene.surface, float(settings.verification.support_distance));
