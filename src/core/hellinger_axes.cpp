@@ -6,7 +6,49 @@
 
 #include <Eigen/QR>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/hellinger_axes.cpp"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
 namespace sks {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// sums += factors[i] * (the `columns` numbers from table + rows[i] on); `columns` is a multiple of 64.
+void addRowsImpl(const float* table, const std::uint32_t* rows, const float* factors, std::size_t count,
+                 std::size_t columns, float* sums) {
+  const hn::CappedTag<float, 16> d;
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t column = 0; column < columns; column += 4 * lanes) {
+    const auto load = [&](const float* from, std::size_t k) { return hn::LoadU(d, from + column + k * lanes); };
+    auto sum0 = load(sums, 0), sum1 = load(sums, 1), sum2 = load(sums, 2), sum3 = load(sums, 3);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto factor = hn::Set(d, factors[i]);
+      const float* row = table + rows[i];
+      sum0 = hn::MulAdd(factor, load(row, 0), sum0);
+      sum1 = hn::MulAdd(factor, load(row, 1), sum1);
+      sum2 = hn::MulAdd(factor, load(row, 2), sum2);
+      sum3 = hn::MulAdd(factor, load(row, 3), sum3);
+    }
+    hn::StoreU(sum0, d, sums + column);
+    hn::StoreU(sum1, d, sums + column + lanes);
+    hn::StoreU(sum2, d, sums + column + 2 * lanes);
+    hn::StoreU(sum3, d, sums + column + 3 * lanes);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sks
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace sks {
+
+HWY_EXPORT(addRowsImpl);
+
 namespace {
 
 using RowMajor = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -88,23 +130,36 @@ HellingerAxes::HellingerAxes(const DescriptorMatrix& words, std::size_t count) {
   const SparseRoots roots(words);
   mean_ = roots.mean();
   mean_mass_ = roots.meanMass();
-  axes_ = orthonormalized(randomColumns(words.cols(), std::min(count, words.cols())));
-  for (int i = 0; i < power_iterations; ++i) axes_ = orthonormalized(roots.transposedTimes(roots.times(axes_)));
-  mean_coordinates_ = axes_.transpose() * mean_;
+  RowMajor axes = orthonormalized(randomColumns(words.cols(), std::min(count, words.cols())));
+  for (int i = 0; i < power_iterations; ++i) axes = orthonormalized(roots.transposedTimes(roots.times(axes)));
+  stride_ = (std::size_t(axes.cols()) + 63) / 64 * 64;
+  axes_.assign(words.cols() * stride_, 0.0f);
+  for (Eigen::Index bin = 0; bin < axes.rows(); ++bin) {
+    std::copy_n(axes.row(bin).data(), axes.cols(), &axes_[std::size_t(bin) * stride_]);
+  }
+  mean_coordinates_ = Eigen::VectorXf::Zero(Eigen::Index(stride_));
+  mean_coordinates_.head(axes.cols()) = axes.transpose() * mean_;
 }
 
 void HellingerAxes::project(const float* histogram, Projection& projection) const {
   projection.coordinates = -mean_coordinates_;
   projection.squares = mean_.squaredNorm();
   projection.mass = 0;
+  projection.roots.clear();
+  projection.rows.clear();
   for (Eigen::Index bin = 0; bin < mean_.size(); ++bin) {
     if (!(histogram[bin] > 0)) continue;
     const float root = std::sqrt(histogram[bin]);
-    projection.coordinates += root * axes_.row(bin).transpose();
+    projection.roots.push_back(root);
+    projection.rows.push_back(std::uint32_t(std::size_t(bin) * stride_));
     projection.squares += root * (root - 2 * mean_[bin]);
     projection.mass += histogram[bin];
   }
+  HWY_DYNAMIC_DISPATCH(addRowsImpl)
+  (axes_.data(), projection.rows.data(), projection.roots.data(), projection.roots.size(), stride_,
+   projection.coordinates.data());
   projection.squares = std::max(projection.squares, 0.0f);
 }
 
 }  // namespace sks
+#endif

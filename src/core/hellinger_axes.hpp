@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Core>
 
 #include <sks_detector/descriptors.hpp>
@@ -26,12 +28,17 @@ public:
     Eigen::VectorXf coordinates;
     float squares;  ///< of all coordinates and of what is left over together
     float mass;     ///< sum of the histogram; rounding errors of `squares` are in proportion to it
+
+    /// Roots of the bins that are not empty, and where their axes begin.
+    std::vector<float> roots;
+    std::vector<std::uint32_t> rows;
   };
   void project(const float* histogram, Projection& projection) const;
 
 private:
-  Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> axes_;  // one column an axis
-  Eigen::VectorXf mean_;                                                        // of the roots
+  std::vector<float> axes_;  // bin by bin, padded with zeros to `stride_` for each
+  std::size_t stride_ = 0;
+  Eigen::VectorXf mean_;     // of the roots
   Eigen::VectorXf mean_coordinates_;
   float mean_mass_ = 0;
 };

@@ -17,7 +17,7 @@ double chiSquared(const float* a, const float* b, std::size_t size) {
 }
 
 bool searchesExactly(SearchKind search, std::size_t words) {
-  constexpr std::size_t most_exact = 65536;  // codewords that `automatic` searches exactly
+  constexpr std::size_t most_exact = 16384;  // codewords that `automatic` searches exactly
   return search == SearchKind::exact || (search == SearchKind::automatic && words <= most_exact);
 }
 

@@ -14,7 +14,7 @@ namespace sks {
 namespace {
 
 constexpr float rounding = 1e-4f;              // above the relative error of single precision distances
-constexpr std::size_t tile_blocks = 64;        // whose codes stay in the cache while a batch of queries passes
+constexpr std::size_t tile_blocks = 16;        // whose codes stay in the cache while a batch of queries passes
 constexpr std::size_t words_of_cluster = 128;  // about
 constexpr std::size_t least_visited = 32, most_visited = 80;  // clusters, about; an eighth of them in between
 constexpr std::size_t candidates_kept = 256;                  // of the words of clusters

@@ -79,15 +79,10 @@ Partner partnerOf(const Placed& placed, const Sighting& seen, const Eigen::Vecto
 }  // namespace
 
 SceneView::SceneView(const Surface& scene, const Settings& settings, int threads)
-    : surface(scene), color_tolerance(scene.hasColor() ? float(settings.verification.color_tolerance) : 0) {
-#pragma omp parallel sections num_threads(threads)
-  {
-#pragma omp section
-    range_image = RangeImage(scene, float(settings.surface.normal_radius));
-#pragma omp section
-    planes = findLargePlanes(scene);
-  }
-}
+    : surface(scene),
+      range_image(scene, float(settings.surface.normal_radius), threads),
+      planes(findLargePlanes(scene, threads)),
+      color_tolerance(scene.hasColor() ? float(settings.verification.color_tolerance) : 0) {}
 
 Distinctiveness::Distinctiveness(const TrainingView& view) : shape(view.surface_points.size(), 0.0f) {
   const PointGrid grid(view.surface_points, weight_radius);

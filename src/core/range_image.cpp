@@ -12,6 +12,7 @@ namespace {
 
 constexpr double most_cells = 1 << 20;
 constexpr std::size_t spacing_samples = 500;
+constexpr std::size_t direction_samples = 4096;
 constexpr float spacings_per_cell = 2;  // few cells within a surface stay empty
 
 /// Median angle between neighbouring points [rad]; points without a neighbour in reach count as that far apart.
@@ -29,31 +30,44 @@ float angularSpacing(const Surface& scene, float radius) {
   return angles[angles.size() / 2];
 }
 
+/// Where most points lie as seen from the sensor, from a sample of them.
+Eigen::Vector3f viewDirection(const Surface& scene) {
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (std::size_t i = 0; i < scene.size(); i += scene.size() / direction_samples + 1) {
+    sum += (scene.point(i) - scene.sensor_origin).stableNormalized();
+  }
+  return sum.norm() > 0 ? sum.normalized() : Eigen::Vector3f::UnitZ();
+}
+
 }  // namespace
 
-RangeImage::RangeImage(const Surface& scene, float radius) {
+RangeImage::RangeImage(const Surface& scene, float radius, int threads) {
   Projection& image = projection_;
   image.origin = scene.sensor_origin;
-  Eigen::Vector3f mean = Eigen::Vector3f::Zero();
-  for (std::size_t i = 0; i < scene.size(); ++i) mean += (scene.point(i) - image.origin).stableNormalized();
-  const Eigen::Vector3f view = mean.norm() > 0 ? mean.normalized() : Eigen::Vector3f::UnitZ();
+  const Eigen::Vector3f view = viewDirection(scene);
   image.axes.row(0) = view.unitOrthogonal();
   image.axes.row(1) = view.cross(Eigen::Vector3f(image.axes.row(0)));
   image.axes.row(2) = view;
 
-  Eigen::AlignedBox2f bounds;
   std::vector<Eigen::Vector3f> projected(scene.size());
+  float low_u = std::numeric_limits<float>::max(), low_v = low_u, high_u = -low_u, high_v = high_u;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : low_u, low_v) \
+    reduction(max : high_u, high_v)
   for (std::size_t i = 0; i < scene.size(); ++i) {
-    const Eigen::Vector3f& p = projected[i] = project(scene.point(i));
-    if (p.z() >= 0) bounds.extend(p.head<2>());
+    const Eigen::Vector3f p = projected[i] = project(scene.point(i));
+    if (p.z() < 0) continue;
+    low_u = std::min(low_u, p.x());
+    low_v = std::min(low_v, p.y());
+    high_u = std::max(high_u, p.x());
+    high_v = std::max(high_v, p.y());
   }
-  if (bounds.isEmpty()) return;
-  const Eigen::Vector2f size = bounds.sizes();
+  if (low_u > high_u) return;
+  const Eigen::Vector2f size(high_u - low_u, high_v - low_v);
   image.cell = std::max(spacings_per_cell * angularSpacing(scene, radius), 1e-6f);
   image.cell = std::max(image.cell, float(std::sqrt(double(size.x()) * size.y() / most_cells)));
   image.cell = std::max(image.cell, float(size.maxCoeff() / most_cells));
-  image.u0 = bounds.min().x();
-  image.v0 = bounds.min().y();
+  image.u0 = low_u;
+  image.v0 = low_v;
   image.width = int(size.x() / image.cell) + 1;
   image.height = int(size.y() / image.cell) + 1;
   cells_.resize(std::size_t(image.width) * std::size_t(image.height));

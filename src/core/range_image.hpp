@@ -53,7 +53,7 @@ public:
 
   RangeImage() = default;  ///< of nothing: all is unknown
   /// @param radius within which most points have a neighbour [m]
-  RangeImage(const Surface& scene, float radius);
+  RangeImage(const Surface& scene, float radius, int threads = 1);
 
   /// What the sensor saw in the direction of a place.
   struct Sighting {

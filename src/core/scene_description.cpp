@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/scene_description.hpp"
 
+#include <algorithm>
+
 #include <sks_detector/error.hpp>
 #include <sks_detector/sanitize.hpp>
 
@@ -15,6 +17,12 @@ void checkColor(const Cloud& cloud, const Codebook& codebook) {
               "the codebook '" + codebook.name +
                   "' describes colour (CSHOT), but the cloud has none: use a coloured cloud, or "
                   "train with --set descriptor.type=shot");
+}
+
+bool usesColor(const Codebook& codebook) {
+  return codebook.descriptor_type == DescriptorType::cshot ||
+         std::any_of(codebook.views.begin(), codebook.views.end(),
+                     [](const TrainingView& view) { return !view.surface_colors.empty(); });
 }
 
 }  // namespace
@@ -51,7 +59,8 @@ Surface prepareScene(const Cloud& cloud, Orientation orientation, const Codebook
   Stopwatch stage;
   SanitizeSettings sanitizing = settings.sanitize;
   if (orientation == Orientation::outward) sanitizing.min_range = 0;  // a model's origin is no sensor
-  const Cloud sanitized = sanitize(cloud, sanitizing);
+  Cloud sanitized = sanitize(cloud, sanitizing);
+  if (!usesColor(codebook)) sanitized.colors.clear();
   times.sanitize = stage.lap();
 
   Surface surface = prepareSurface(sanitized, settings.surface, orientation, threadCount(settings));
