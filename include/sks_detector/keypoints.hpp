@@ -20,8 +20,8 @@ struct Keypoints {
 };
 
 /// The centroid of the points of each occupied cell of a voxel grid (section 3.1); the grid is anchored at the frame's
-/// origin. Deterministic.
-Keypoints gridKeypoints(const Surface& surface, double grid_size);
+/// origin. Deterministic, for any number of threads.
+Keypoints gridKeypoints(const Surface& surface, double grid_size, int threads = 1);
 
 /// Intrinsic shape signatures (Zhong 2009), by PCL.
 Keypoints issKeypoints(const Surface& surface, const KeypointSettings& settings, int threads);

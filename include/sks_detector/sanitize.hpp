@@ -19,6 +19,7 @@ struct SanitizeReport {
 
 /// The one gate through which every cloud comes: returns the usable points of `cloud`, in their order.
 /// @throws Error(bad_data) if nothing usable is left or the lengths look like millimetres; says which, with figures
-Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeReport* report = nullptr);
+/// @param threads the result does not depend on them
+Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeReport* report = nullptr, int threads = 1);
 
 }  // namespace sks

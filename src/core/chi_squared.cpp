@@ -67,14 +67,16 @@ float chiSquaredFastImpl(const float* a, const float* b, std::size_t size) {
   const hn::ScalableTag<float> d;
   const std::size_t lanes = hn::Lanes(d);
   const auto at = [&](std::size_t i) { return term(d, hn::LoadU(d, a + i), hn::LoadU(d, b + i)); };
-  auto sum0 = hn::Zero(d), sum1 = sum0;
+  auto sum0 = hn::Zero(d), sum1 = sum0, sum2 = sum0, sum3 = sum0;
   std::size_t i = 0;
-  for (; i + 2 * lanes <= size; i += 2 * lanes) {
+  for (; i + 4 * lanes <= size; i += 4 * lanes) {
     sum0 = hn::Add(sum0, at(i));
     sum1 = hn::Add(sum1, at(i + lanes));
+    sum2 = hn::Add(sum2, at(i + 2 * lanes));
+    sum3 = hn::Add(sum3, at(i + 3 * lanes));
   }
   for (; i + lanes <= size; i += lanes) sum0 = hn::Add(sum0, at(i));
-  float total = hn::GetLane(hn::SumOfLanes(d, hn::Add(sum0, sum1)));
+  float total = hn::GetLane(hn::SumOfLanes(d, hn::Add(hn::Add(sum0, sum1), hn::Add(sum2, sum3))));
   for (; i < size; ++i) {
     const float difference = a[i] - b[i], both = a[i] + b[i];
     if (both > 0) total += difference * difference / both;

@@ -37,6 +37,12 @@ float limitOf(const NearestWord::Search& search, std::uint32_t group) {
   return std::min(search.best_of_group[group], search.factor * search.best) * (1 + rounding);
 }
 
+/// Words are read from memory, one after the other in no order that the processor could foresee.
+void prefetch(const float* word, std::size_t size) {
+  constexpr std::size_t line = 64 / sizeof(float);
+  for (std::size_t i = 0; i < size; i += line) __builtin_prefetch(word + i);
+}
+
 void dropAbove(float highest, NearestWord::Search& search) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < search.slots.size(); ++i) {
@@ -167,6 +173,7 @@ void NearestWord::finish(Search& search, Match* matches, Workspace& work) const 
   dropHopeless(search, highestWithin);
   for (std::size_t i = 0; i < search.slots.size(); ++i) {
     const std::uint32_t slot = search.slots[i];
+    if (i + 1 < search.slots.size()) prefetch(words_.row(clusters_.order()[search.slots[i + 1]]), words_.cols());
     const bool hopeless = search.bounds[i] > highestWithin(limitOf(search, groupOf(slot)));
     search.bounds[i] = hopeless ? nothing : measure(search, slot);
   }

@@ -49,7 +49,7 @@ public:
     x = hn::IfThenElseZero(inside, x);
     y = hn::IfThenElseZero(inside, y);
     z = hn::IfThenElseZero(inside, z);
-    n_ = hn::Add(n_, hn::IfThenElseZero(inside, hn::Set(d_, 1.0f)));
+    n_ = hn::Sub(n_, hn::VecFromMask(di_, hn::RebindMask(di_, inside)));  // all bits of a mask are -1
     sx_ = hn::Add(sx_, x);
     sy_ = hn::Add(sy_, y);
     sz_ = hn::Add(sz_, z);
@@ -63,7 +63,7 @@ public:
 
   void store(Moments& moments) const {
     float* out = moments.sums[0];
-    for (const V& sum : {n_, sx_, sy_, sz_, xx_, xy_, xz_, yy_, yz_, zz_}) {
+    for (const V& sum : {hn::ConvertTo(d_, n_), sx_, sy_, sz_, xx_, xy_, xz_, yy_, yz_, zz_}) {
       hn::StoreU(sum, d_, out);
       out += max_lanes;
     }
@@ -71,9 +71,11 @@ public:
 
 private:
   Points d_;
+  hn::RebindToSigned<Points> di_;
   V cx_, cy_, cz_, limit_;
-  V n_ = hn::Zero(d_), sx_ = n_, sy_ = n_, sz_ = n_;
-  V xx_ = n_, xy_ = n_, xz_ = n_, yy_ = n_, yz_ = n_, zz_ = n_;
+  hn::Vec<hn::RebindToSigned<Points>> n_ = hn::Zero(di_);
+  V sx_ = hn::Zero(d_), sy_ = sx_, sz_ = sx_;
+  V xx_ = sx_, xy_ = sx_, xz_ = sx_, yy_ = sx_, yz_ = sx_, zz_ = sx_;
 };
 
 /// Fits of `count` points from their moments, in double precision.

@@ -23,8 +23,8 @@ public:
     slots_.assign(std::size_t(1) << bits_, {0, 0});
   }
 
-  std::uint64_t hash(std::uint32_t index) const {
-    const Eigen::Vector3f p = points_[index] + Eigen::Vector3f::Zero();  // -0 becomes +0
+  static std::uint64_t hash(const Eigen::Vector3f& point) {
+    const Eigen::Vector3f p = point + Eigen::Vector3f::Zero();  // -0 becomes +0
     std::uint32_t bits[3];
     std::memcpy(bits, p.data(), sizeof bits);
     const std::uint64_t mixed =
@@ -89,49 +89,71 @@ void checkShape(const Cloud& cloud) {
 }
 
 /// Indices of the finite points within range and crop box; counts the others.
-std::vector<std::uint32_t> usablePoints(const Cloud& cloud, const SanitizeSettings& settings, SanitizeReport& counts) {
+std::vector<std::uint32_t> usablePoints(const Cloud& cloud, const SanitizeSettings& settings, int threads,
+                                        SanitizeReport& counts) {
   const Eigen::Array3f low(settings.crop_min_x, settings.crop_min_y, settings.crop_min_z);
   const Eigen::Array3f high(settings.crop_max_x, settings.crop_max_y, settings.crop_max_z);
   const double nearest = settings.min_range * settings.min_range, farthest = settings.max_range * settings.max_range;
-  std::vector<std::uint32_t> usable;
-  usable.reserve(cloud.size());
+  std::vector<char> use(cloud.size());
+  std::size_t invalid = 0;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(+ : invalid)
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const Eigen::Vector3f& p = cloud.points[i];
-    if (!p.allFinite()) {
-      ++counts.invalid;
-      continue;
-    }
+    const bool finite = p.allFinite();
+    invalid += !finite;
+    if (!finite) continue;
     const double squared = (p - cloud.sensor_origin).cast<double>().squaredNorm();
     const bool inside = !settings.crop || ((p.array() >= low).all() && (p.array() <= high).all());
-    if (squared < nearest || squared > farthest || !inside) {
-      ++counts.out_of_range;
-    } else {
-      usable.push_back(std::uint32_t(i));
-    }
+    use[i] = !(squared < nearest || squared > farthest) && inside;
   }
+  std::vector<std::uint32_t> usable(cloud.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {  // without branches: clouds have holes everywhere
+    usable[count] = std::uint32_t(i);
+    count += std::size_t(use[i]);
+  }
+  usable.resize(count);
+  counts.invalid = invalid;
+  counts.out_of_range = cloud.size() - invalid - count;
   return usable;
 }
 
-/// Those of the points that are not at exactly the place of an earlier one.
-std::vector<std::uint32_t> distinctPoints(const Cloud& cloud, const std::vector<std::uint32_t>& indices) {
-  constexpr std::size_t block = 32;
-  PositionSet seen(cloud.points, indices.size());
-  std::vector<std::uint32_t> distinct;
-  distinct.reserve(indices.size());
-  std::uint64_t hashes[block];
-  for (std::size_t begin = 0; begin < indices.size(); begin += block) {
-    const std::size_t count = std::min(block, indices.size() - begin);
-    for (std::size_t i = 0; i < count; ++i) seen.prefetch(hashes[i] = seen.hash(indices[begin + i]));
-    for (std::size_t i = 0; i < count; ++i) {
-      if (seen.insert(indices[begin + i], hashes[i])) distinct.push_back(indices[begin + i]);
+/// Those of the points that are not at exactly the place of an earlier one. Equal points have equal hashes: each share
+/// of all hashes is looked at by itself.
+std::vector<std::uint32_t> distinctPoints(const Cloud& cloud, const std::vector<std::uint32_t>& indices, int threads) {
+  const std::size_t n = indices.size(), shares = std::size_t(threads);
+  std::vector<std::uint64_t> hashes(n);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t i = 0; i < n; ++i) hashes[i] = PositionSet::hash(cloud.points[indices[i]]);
+  std::vector<char> distinct(n);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t share = 0; share < shares; ++share) {
+    constexpr std::size_t block = 32;
+    PositionSet seen(cloud.points, n / shares + n / 8);
+    std::size_t waiting[block], count = 0;
+    const auto insert = [&] {
+      for (std::size_t k = 0; k < count; ++k) distinct[waiting[k]] = seen.insert(indices[waiting[k]], hashes[waiting[k]]);
+      count = 0;
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      if ((hashes[i] & 0xffff) % shares != share) continue;
+      seen.prefetch(hashes[i]);
+      waiting[count++] = i;
+      if (count == block) insert();
     }
+    insert();
   }
-  return distinct;
+  std::vector<std::uint32_t> kept;
+  kept.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (distinct[i]) kept.push_back(indices[i]);
+  }
+  return kept;
 }
 
 }  // namespace
 
-Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeReport* report) {
+Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeReport* report, int threads) {
   checkShape(cloud);
   const double median = medianDistance(cloud);
   if (median > std::max(implausible_distance, settings.max_range)) {
@@ -143,8 +165,8 @@ Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeRep
 
   SanitizeReport counts;
   counts.input = cloud.size();
-  const auto usable = usablePoints(cloud, settings, counts);
-  auto distinct = settings.remove_duplicates ? distinctPoints(cloud, usable) : usable;
+  const auto usable = usablePoints(cloud, settings, threads, counts);
+  auto distinct = settings.remove_duplicates ? distinctPoints(cloud, usable, threads) : usable;
   counts.duplicates = usable.size() - distinct.size();
   Cloud kept;
   kept.sensor_origin = cloud.sensor_origin;

@@ -59,7 +59,7 @@ Surface prepareScene(const Cloud& cloud, Orientation orientation, const Codebook
   Stopwatch stage;
   SanitizeSettings sanitizing = settings.sanitize;
   if (orientation == Orientation::outward) sanitizing.min_range = 0;  // a model's origin is no sensor
-  Cloud sanitized = sanitize(cloud, sanitizing);
+  Cloud sanitized = sanitize(cloud, sanitizing, nullptr, threadCount(settings));
   if (!usesColor(codebook)) sanitized.colors.clear();
   times.sanitize = stage.lap();
 

@@ -26,7 +26,7 @@ public:
     const Settings& settings = codebook_.settings;
     SanitizeSettings sanitizing = settings.sanitize;
     if (sample.kind == ViewKind::model) sanitizing.min_range = 0;  // a model's origin is no sensor
-    const Cloud cloud = sanitize(sample.load(), sanitizing);
+    const Cloud cloud = sanitize(sample.load(), sanitizing, nullptr, threads_);
     if (!cloud.hasColor() && settings.descriptor.type == DescriptorType::automatic) dropColor();
 
     const Orientation orientation = sample.kind == ViewKind::model ? Orientation::outward : Orientation::sensor;

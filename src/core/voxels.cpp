@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include <Eigen/Geometry>
+
 #include <sks_detector/error.hpp>
 
 namespace sks {
@@ -37,55 +39,74 @@ struct Segment {
 };
 
 template <typename PointAt>
-std::vector<Segment> sortedSegments(std::size_t count, double edge, PointAt&& point) {
+std::vector<Segment> sortedSegments(std::size_t count, double edge, PointAt&& point, int threads) {
+  std::vector<std::uint64_t> keys(count);
+  const auto check = [&](const Eigen::Vector3f& corner) { cellKey(corner, 1.0 / edge); };  // no error may leave threads
+  Eigen::AlignedBox3f box;
+  for (std::size_t i = 0; i < count; ++i) box.extend(point(i));
+  if (count > 0) check(box.min());
+  if (count > 0) check(box.max());
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t i = 0; i < count; ++i) keys[i] = cellKey(point(i), 1.0 / edge);
   std::vector<Segment> segments;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint64_t key = cellKey(point(i), 1.0 / edge);
-    if (segments.empty() || segments.back().key != key) segments.push_back({key, std::uint32_t(i), 0});
+    if (segments.empty() || segments.back().key != keys[i]) segments.push_back({keys[i], std::uint32_t(i), 0});
     segments.back().end = std::uint32_t(i + 1);
   }
   std::sort(segments.begin(), segments.end());
   return segments;
 }
 
-/// Calls `cube(first segment, one past the last, centroid)` for each cube in order.
-template <typename PointAt, typename Cube>
-void forEachCube(const std::vector<Segment>& segments, PointAt&& point, Cube&& cube) {
-  for (auto first = segments.begin(), last = first; first != segments.end(); first = last) {
+/// The first segment of each cube, and one past the last of all.
+std::vector<std::size_t> cubesOf(const std::vector<Segment>& segments) {
+  std::vector<std::size_t> first;
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    if (i == 0 || segments[i].key != segments[i - 1].key) first.push_back(i);
+  }
+  first.push_back(segments.size());
+  return first;
+}
+
+template <typename PointAt>
+std::vector<Eigen::Vector3f> centroidsOf(const std::vector<Segment>& segments, const std::vector<std::size_t>& first,
+                                         PointAt&& point, int threads) {
+  std::vector<Eigen::Vector3f> centroids(first.size() - 1);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t cube = 0; cube < centroids.size(); ++cube) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     std::size_t count = 0;
-    for (; last != segments.end() && last->key == first->key; ++last) {
-      for (std::uint32_t i = last->begin; i < last->end; ++i) sum += point(i).template cast<double>();
-      count += last->end - last->begin;
+    for (std::size_t s = first[cube]; s < first[cube + 1]; ++s) {
+      for (std::uint32_t i = segments[s].begin; i < segments[s].end; ++i) sum += point(i).template cast<double>();
+      count += segments[s].end - segments[s].begin;
     }
-    cube(first, last, (sum / double(count)).template cast<float>());
+    centroids[cube] = (sum / double(count)).cast<float>();
   }
+  return centroids;
 }
 
 }  // namespace
 
 VoxelGroups groupByVoxel(const std::vector<Eigen::Vector3f>& points, double edge) {
   const auto point = [&](std::size_t i) -> const Eigen::Vector3f& { return points[i]; };
-  const auto segments = sortedSegments(points.size(), edge, point);
+  const auto segments = sortedSegments(points.size(), edge, point, 1);
+  const auto first = cubesOf(segments);
   VoxelGroups groups;
+  groups.centroids = centroidsOf(segments, first, point, 1);
   groups.points.reserve(points.size());
-  forEachCube(segments, point, [&](auto first, auto last, const Eigen::Vector3f& centroid) {
+  for (std::size_t cube = 0; cube + 1 < first.size(); ++cube) {
     groups.begin.push_back(std::uint32_t(groups.points.size()));
-    groups.centroids.push_back(centroid);
-    for (; first != last; ++first) {
-      for (std::uint32_t i = first->begin; i < first->end; ++i) groups.points.push_back(i);
+    for (std::size_t s = first[cube]; s < first[cube + 1]; ++s) {
+      for (std::uint32_t i = segments[s].begin; i < segments[s].end; ++i) groups.points.push_back(i);
     }
-  });
+  }
   groups.begin.push_back(std::uint32_t(points.size()));
   return groups;
 }
 
-std::vector<Eigen::Vector3f> voxelCentroids(const PointGrid& points, double edge) {
+std::vector<Eigen::Vector3f> voxelCentroids(const PointGrid& points, double edge, int threads) {
   const auto point = [&](std::size_t i) { return points.point(i); };
-  std::vector<Eigen::Vector3f> centroids;
-  forEachCube(sortedSegments(points.size(), edge, point), point,
-              [&](auto, auto, const Eigen::Vector3f& centroid) { centroids.push_back(centroid); });
-  return centroids;
+  const auto segments = sortedSegments(points.size(), edge, point, threads);
+  return centroidsOf(segments, cubesOf(segments), point, threads);
 }
 
 }  // namespace sks
