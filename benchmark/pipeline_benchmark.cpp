@@ -1,55 +1,63 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// From the cloud in memory to hypotheses, on the scenes of kinect_new_views with its codebook.
-#include <sks_detector/dataset.hpp>
-#include <sks_detector/detector.hpp>
-#include <sks_detector/settings_file.hpp>
-#include <sks_detector/trainer.hpp>
-
+// From the cloud in memory to hypotheses: the published method beside one composed of PCL's parts, the default settings
+// beside the published ones, two threads beside one.
 #include "pair.hpp"
 #include "pcl_clouds.hpp"
 #include "pcl_pipeline.hpp"
-#include "recorded_scenes.hpp"
+#include "recorded_detectors.hpp"
 
 namespace sks::bench {
 namespace {
 
-constexpr std::size_t scene_count = 3;
-
-Settings publishedSettings() {
-  Settings settings;
-  loadSettings(std::string(SKS_SOURCE_DIR) + "/config/paper.yaml", settings);
-  settings.threads = threads;
-  return settings;
-}
+constexpr const char* recorded = "kinect_new_views";
 
 /// The published method composed of PCL's parts, and ours.
 void pipeline(benchmark::State& state) {
-  const std::string file = test::recordedData("kinect_new_views/dataset.yaml");
-  if (file.empty()) return state.SkipWithError("skipped: no kinect_new_views in SKS_DATA");
-  const DataSet data_set = loadDataSet(file);
-  const Settings settings = publishedSettings();
-  const auto codebook = std::make_shared<const Codebook>(train(trainingSamples(data_set), settings, data_set.name));
+  const auto data_set = recordedDataSet(state, recorded);
+  if (!data_set) return;
+  const Settings settings = preset("paper", threads);
+  const auto codebook = trained(*data_set, settings);
   const Detector detector(codebook, settings);
   const PclPipeline pcl_pipeline(*codebook, settings, threads);
-  std::vector<Cloud> clouds;
+  const std::vector<Cloud> clouds = sceneClouds(*data_set, 3);
   std::vector<pcl::PointCloud<pcl::PointXYZ>::Ptr> pcl_clouds;
-  for (std::size_t i = 0; i < std::min(scene_count, data_set.scenes.size()); ++i) {
-    clouds.push_back(readCloud(data_set.scenes[i].path, data_set.scale));
-    pcl_clouds.push_back(test::pclPoints(clouds.back().points));
-  }
+  for (const Cloud& cloud : clouds) pcl_clouds.push_back(test::pclPoints(cloud.points));
   compare(
       state,
       [&] {
         for (const auto& cloud : pcl_clouds) benchmark::DoNotOptimize(pcl_pipeline.detect(cloud));
       },
-      [&] {
-        for (const Cloud& cloud : clouds) benchmark::DoNotOptimize(detector.detect(cloud));
-      },
-      10, 3);
+      [&] { detectAll(detector, clouds); }, 10, 3);
   state.SetLabel(std::to_string(clouds.size()) + " scenes");
 }
 
+/// The default settings may take 1.5 times as long as the published ones.
+void publishedAndDefault(benchmark::State& state) {
+  const auto data_set = recordedDataSet(state, recorded);
+  if (!data_set) return;
+  const Settings settings = preset("default", threads);
+  const Detector verifying(trained(*data_set, settings), settings);
+  const Detector published = verifying.withSettings(preset("paper", threads));
+  const std::vector<Cloud> clouds = sceneClouds(*data_set, 8);
+  compare(
+      state, [&] { detectAll(published, clouds); }, [&] { detectAll(verifying, clouds); }, 1 / 1.5);
+  state.SetLabel("theirs: paper.yaml, ours: default.yaml; " + std::to_string(clouds.size()) + " scenes");
+}
+
+void secondThread(benchmark::State& state, const char* name) {
+  const auto data_set = recordedDataSet(state, recorded);
+  if (!data_set) return;
+  const Settings settings = preset(name, threads);
+  const Detector two(trained(*data_set, settings), settings), one = two.withSettings(preset(name, 1));
+  const std::vector<Cloud> clouds = sceneClouds(*data_set, 8);
+  compare(
+      state, [&] { detectAll(one, clouds); }, [&] { detectAll(two, clouds); }, 1.7);
+}
+
 BENCHMARK(pipeline)->Apply(asPair);
+BENCHMARK(publishedAndDefault)->Apply(asPair);
+BENCHMARK_CAPTURE(secondThread, detection_paper, "paper")->Apply(asPair);
+BENCHMARK_CAPTURE(secondThread, detection_default, "default")->Apply(asPair);
 
 }  // namespace
 }  // namespace sks::bench

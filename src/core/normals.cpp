@@ -58,7 +58,7 @@ void estimateNormals(Surface& surface, const SurfaceSettings& settings, Orientat
 
 Surface prepareSurface(const Cloud& sanitized, const SurfaceSettings& settings, Orientation orientation, int threads) {
   const double cell = cell_margin * settings.normal_radius;
-  Surface surface = settings.resolution > 0 ? makeSurface(thin(sanitized, settings.resolution), cell, threads)
+  Surface surface = settings.resolution > 0 ? makeSurface(thin(sanitized, settings.resolution, threads), cell, threads)
                                             : makeSurface(sanitized, cell, threads);
   std::vector<Eigen::Vector3f> normals;
   if (orientation == Orientation::sensor && settings.resolution == 0 &&

@@ -22,24 +22,24 @@ Surface makeSurface(const Cloud& cloud, double cell, int threads) {
 namespace {
 
 /// Of the points of each occupied cube the index of the one nearest to their centroid.
-std::vector<std::uint32_t> nearestToCentroids(const std::vector<Eigen::Vector3f>& points, double edge) {
-  const VoxelGroups voxels = groupByVoxel(points, edge);
-  std::vector<std::uint32_t> nearest;
-  for (std::size_t v = 0; v < voxels.centroids.size(); ++v) {
+std::vector<std::uint32_t> nearestToCentroids(const std::vector<Eigen::Vector3f>& points, double edge, int threads) {
+  const VoxelGroups voxels = groupByVoxel(points, edge, threads);
+  std::vector<std::uint32_t> nearest(voxels.centroids.size());
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t v = 0; v < nearest.size(); ++v) {
     const auto distance = [&](std::uint32_t i) { return (points[i] - voxels.centroids[v]).squaredNorm(); };
-    nearest.push_back(*std::min_element(voxels.points.begin() + voxels.begin[v],
-                                        voxels.points.begin() + voxels.begin[v + 1],
-                                        [&](std::uint32_t a, std::uint32_t b) { return distance(a) < distance(b); }));
+    nearest[v] = *std::min_element(voxels.points.begin() + voxels.begin[v], voxels.points.begin() + voxels.begin[v + 1],
+                                   [&](std::uint32_t a, std::uint32_t b) { return distance(a) < distance(b); });
   }
   return nearest;
 }
 
 }  // namespace
 
-Cloud thin(const Cloud& cloud, double edge) {
+Cloud thin(const Cloud& cloud, double edge, int threads) {
   Cloud thinned;
   thinned.sensor_origin = cloud.sensor_origin;
-  for (const std::uint32_t i : nearestToCentroids(cloud.points, edge)) {
+  for (const std::uint32_t i : nearestToCentroids(cloud.points, edge, threads)) {
     thinned.points.push_back(cloud.points[i]);
     if (cloud.hasColor()) thinned.colors.push_back(cloud.colors[i]);
   }
@@ -48,7 +48,7 @@ Cloud thin(const Cloud& cloud, double edge) {
 }
 
 std::vector<std::uint32_t> thinnedIndices(const PointGrid& points, double edge) {
-  return nearestToCentroids(points.positions(), edge);
+  return nearestToCentroids(points.positions(), edge, 1);
 }
 
 }  // namespace sks

@@ -2,6 +2,9 @@
 #include <sks_detector/trainer.hpp>
 
 #include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <new>
 
 #include <sks_detector/sanitize.hpp>
 
@@ -9,6 +12,40 @@
 
 namespace sks {
 namespace {
+
+/// Numbers that grow in place: a vector would copy them from time to time, and hold them twice meanwhile. Large blocks
+/// are moved by the kernel, page by page.
+class GrowingValues {
+public:
+  void append(const float* values, std::size_t count) {
+    if (size_ + count > capacity_) reserve(std::max(size_ + count, capacity_ + capacity_ / 2));
+    std::copy_n(values, count, data_.get() + size_);
+    size_ += count;
+  }
+  float* at(std::size_t index) { return data_.get() + index; }
+  void shrinkTo(std::size_t size) { size_ = size; }
+  /// Leaves nothing here.
+  DescriptorMatrix release(std::size_t cols) {
+    if (size_ > 0) reserve(size_);
+    const std::shared_ptr<const float> owner(data_.release(), std::free);
+    return DescriptorMatrix(owner.get(), size_ / cols, cols, owner);
+  }
+
+private:
+  void reserve(std::size_t capacity) {
+    void* moved = std::realloc(data_.get(), capacity * sizeof(float));
+    if (moved == nullptr) throw std::bad_alloc();
+    static_cast<void>(data_.release());  // realloc() has freed it
+    data_.reset(static_cast<float*>(moved));
+    capacity_ = capacity;
+  }
+
+  struct Free {
+    void operator()(float* data) const { std::free(data); }
+  };
+  std::unique_ptr<float, Free> data_;
+  std::size_t size_ = 0, capacity_ = 0;
+};
 
 /// Codewords under construction. Descriptors start as CSHOT under `automatic`; from the first cloud without colour on
 /// they are SHOT, and what was there is cut down to its SHOT part.
@@ -47,19 +84,18 @@ public:
   Codebook finish() {
     codebook_.descriptor_type = type_;
     codebook_.settings.descriptor.type = type_;
-    codebook_.descriptors = DescriptorMatrix(std::move(values_), descriptorSize(type_));
+    codebook_.descriptors = values_.release(descriptorSize(type_));
     return std::move(codebook_);
   }
 
 private:
   void dropColor() {
     if (type_ != DescriptorType::cshot) return;
-    std::vector<float> shape;
     for (std::size_t row = 0; row < codebook_.words.size(); ++row) {
-      shape.insert(shape.end(), &values_[row * cshot_size], &values_[row * cshot_size] + shot_size);
-      normalize(&shape[row * shot_size], shot_size);
+      std::copy_n(values_.at(row * cshot_size), shot_size, values_.at(row * shot_size));
+      normalize(values_.at(row * shot_size), shot_size);
     }
-    values_ = std::move(shape);
+    values_.shrinkTo(codebook_.words.size() * shot_size);
     type_ = DescriptorType::shot;
   }
 
@@ -88,7 +124,7 @@ private:
 
   void addWords(const Keypoints& keypoints, const Descriptors& descriptors) {
     const DescriptorMatrix& rows = descriptors.values;
-    values_.insert(values_.end(), rows.data(), rows.data() + rows.rows() * rows.cols());
+    values_.append(rows.data(), rows.rows() * rows.cols());
     for (std::size_t row = 0; row < rows.rows(); ++row) {
       Codeword word;
       word.view = std::uint32_t(codebook_.views.size() - 1);
@@ -101,7 +137,7 @@ private:
   int threads_;
   DescriptorType type_;
   Codebook codebook_;
-  std::vector<float> values_;
+  GrowingValues values_;
 };
 
 }  // namespace

@@ -38,6 +38,18 @@ struct Segment {
   bool operator<(const Segment& other) const { return key < other.key || (key == other.key && begin < other.begin); }
 };
 
+void sortInHalves(std::vector<Segment>& segments, int threads) {
+  const auto middle = segments.begin() + std::ptrdiff_t(segments.size() / 2);
+#pragma omp parallel sections num_threads(threads)
+  {
+#pragma omp section
+    std::sort(segments.begin(), middle);
+#pragma omp section
+    std::sort(middle, segments.end());
+  }
+  std::inplace_merge(segments.begin(), middle, segments.end());
+}
+
 template <typename PointAt>
 std::vector<Segment> sortedSegments(std::size_t count, double edge, PointAt&& point, int threads) {
   std::vector<std::uint64_t> keys(count);
@@ -53,7 +65,7 @@ std::vector<Segment> sortedSegments(std::size_t count, double edge, PointAt&& po
     if (segments.empty() || segments.back().key != keys[i]) segments.push_back({keys[i], std::uint32_t(i), 0});
     segments.back().end = std::uint32_t(i + 1);
   }
-  std::sort(segments.begin(), segments.end());
+  sortInHalves(segments, threads);
   return segments;
 }
 
@@ -86,12 +98,12 @@ std::vector<Eigen::Vector3f> centroidsOf(const std::vector<Segment>& segments, c
 
 }  // namespace
 
-VoxelGroups groupByVoxel(const std::vector<Eigen::Vector3f>& points, double edge) {
+VoxelGroups groupByVoxel(const std::vector<Eigen::Vector3f>& points, double edge, int threads) {
   const auto point = [&](std::size_t i) -> const Eigen::Vector3f& { return points[i]; };
-  const auto segments = sortedSegments(points.size(), edge, point, 1);
+  const auto segments = sortedSegments(points.size(), edge, point, threads);
   const auto first = cubesOf(segments);
   VoxelGroups groups;
-  groups.centroids = centroidsOf(segments, first, point, 1);
+  groups.centroids = centroidsOf(segments, first, point, threads);
   groups.points.reserve(points.size());
   for (std::size_t cube = 0; cube + 1 < first.size(); ++cube) {
     groups.begin.push_back(std::uint32_t(groups.points.size()));

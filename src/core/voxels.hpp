@@ -18,7 +18,8 @@ struct VoxelGroups {
 };
 
 /// @throws Error(bad_data) if the extent of the points is more than two million cubes along an axis
-VoxelGroups groupByVoxel(const std::vector<Eigen::Vector3f>& points, double edge);
+/// The same for any number of threads.
+VoxelGroups groupByVoxel(const std::vector<Eigen::Vector3f>& points, double edge, int threads = 1);
 
 /// The centroids alone. The same for any number of threads.
 std::vector<Eigen::Vector3f> voxelCentroids(const PointGrid& points, double edge, int threads = 1);
