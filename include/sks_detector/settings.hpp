@@ -185,7 +185,7 @@ struct RefinementSettings {
 };
 
 struct VerificationSettings {
-  int candidates = 100;
+  int candidates = 80;
   double ambiguity = 1.3;
   bool skip_planes = true;
   double support_distance = 0.008;

@@ -17,7 +17,7 @@ constexpr float rounding = 1e-4f;              // above the relative error of si
 constexpr std::size_t tile_blocks = 16;        // whose codes stay in the cache while a batch of queries passes
 constexpr std::size_t words_of_cluster = 128;  // about
 constexpr std::size_t least_visited = 32, most_visited = 80;  // clusters, about; an eighth of them in between
-constexpr std::size_t candidates_kept = 256;                  // of the words of clusters
+constexpr std::size_t least_kept = 160, most_kept = 256;      // of the words of clusters; a 256th of all in between
 constexpr std::size_t centers_sampled = 16;                   // every one of this many
 
 constexpr float largest_bin = 1e4f;  // descriptors have the length 1; sums over far larger bins would not be finite
@@ -164,7 +164,7 @@ void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* con
 
 void NearestWord::finish(Search& search, Match* matches, Workspace& work) const {
   dropHopeless(search, [&](float distance) { return distance + search.query.slack; });
-  if (!exact()) keepLowest(candidates_kept, search, work.sorted);
+  if (!exact()) keepLowest(std::clamp(words_.rows() / 256, least_kept, most_kept), search, work.sorted);
   merged_.merge(search.histogram, work.merged);
   merged_.distances(work.merged, search.slots, search.bounds);
   const auto highestWithin = [&](float distance) { return merged_.highestWithin(distance); };
