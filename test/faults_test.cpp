@@ -26,6 +26,10 @@
 #include "error_of.hpp"
 #include "temporary_folder.hpp"
 
+#ifdef SKS_EXECUTABLE
+#include "run_sks.hpp"
+#endif
+
 namespace sks {
 namespace {
 
@@ -179,6 +183,24 @@ TEST(Faults, FullDiskKeepsTheCapturedViews) {
   for (const TrainingEntry& entry : views.read().training) EXPECT_EQ(readCloud(entry.path).size(), 5000u);
 }
 
+TEST(Faults, ViewThatCannotBeListedLeavesNoFile) {
+  const SmallDisk disk("size=256k");
+  SKIP_UNLESS_MOUNTED(disk);
+  CapturedViews views(disk.path("captured"));
+  Cloud cloud;
+  cloud.points.assign(100, Eigen::Vector3f(0, 0, 1));  // in a page of its own
+  cloud.width = 100;
+  const auto first = views.add("mug", cloud);
+  const auto free_pages = fs::space(disk.path("captured")).available / 4096;
+  ASSERT_GT(free_pages, 1u);
+  test::writeFile(disk.path("filler"), std::string(4096 * (free_pages - 1), 'x'));
+  EXPECT_THAT(errorOf(ErrorCode::bad_file, [&] { views.add("mug", cloud); }),
+              testing::AllOf(HasSubstr(views.file()), HasSubstr("No space left on device")));
+  EXPECT_EQ(std::distance(fs::directory_iterator(fs::path(first.file).parent_path()), {}), 1);
+  fs::remove(disk.path("filler"));
+  EXPECT_EQ(views.add("mug", cloud).views, 2u);
+}
+
 TEST(Faults, ReadOnlyDiskIsNamedAndKeepsTheOldFile) {
   const SmallDisk disk("size=256k");
   SKIP_UNLESS_MOUNTED(disk);
@@ -259,6 +281,34 @@ TEST(Faults, KilledTrainingLeavesTheOldCodebookOrTheNewOne) {
     EXPECT_TRUE(left == wholes[0] || left == wholes[1]) << "run " << run;
   }
   EXPECT_GT(killed, 0);
+}
+
+TEST(Faults, CommandLineOnAFullDiskFailsAndKeepsTheOldCodebook) {
+  const SmallDisk disk("size=64k");
+  SKIP_UNLESS_MOUNTED(disk);
+  const TemporaryFolder sources;
+  writeCloud(sources.path("bumps.pcd"), test::bumps());
+  test::writeFile(sources.path("toys.yaml"),
+                  "name: toys\nunits: m\ntraining:\n  - {object: bumps, cloud: bumps.pcd, kind: view}\n");
+  writeCodebook(disk.path("toys.sks"), codebookOf("old", 20));
+  const auto run = test::runSks({"train", "-d", sources.path("toys.yaml"), "-o", disk.path("toys.sks")});
+  EXPECT_EQ(run.status, 1);
+  EXPECT_THAT(run.errors, HasSubstr("cannot write '" + disk.path("toys.sks") + "': No space left on device"));
+  EXPECT_EQ(readCodebook(disk.path("toys.sks"))->name, "old");
+  EXPECT_EQ(disk.fileCount(), 1u);
+}
+
+TEST(Faults, CommandLineSaysWhenItsResultsCannotBeWritten) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const TemporaryFolder folder;
+  writeCodebook(folder.path("toys.sks"), codebookOf("toys", 20));
+  const std::string codebook = folder.path("toys.sks");
+  for (const std::vector<std::string>& arguments :
+       {std::vector<std::string>{"info", codebook}, {"info", codebook, "--json", "-"}, {"settings"}}) {
+    const auto run = test::runSks(arguments, "/dev/full");
+    EXPECT_EQ(run.status, 1) << arguments[0];
+    EXPECT_EQ(run.errors, "sks: cannot write the results to stdout\n") << arguments[0];
+  }
 }
 
 #endif  // SKS_EXECUTABLE

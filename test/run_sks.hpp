@@ -23,10 +23,10 @@ struct CommandRun {
   std::string errors;  ///< what was on stderr
 };
 
-/// Runs the command line `sks` without a shell.
-inline CommandRun runSks(const std::vector<std::string>& arguments) {
+/// Runs the command line `sks` without a shell; its stdout may be a device, from which nothing is read.
+inline CommandRun runSks(const std::vector<std::string>& arguments, const std::string& device = "") {
   const TemporaryFolder folder;
-  const std::string output = folder.path("stdout"), errors = folder.path("stderr");
+  const std::string output = device.empty() ? folder.path("stdout") : device, errors = folder.path("stderr");
   std::string executable = SKS_EXECUTABLE;
   std::vector<char*> argv{executable.data()};
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -40,7 +40,8 @@ inline CommandRun runSks(const std::vector<std::string>& arguments) {
   posix_spawn_file_actions_destroy(&actions);
   int status = 0;
   if (reason != 0 || waitpid(child, &status, 0) != child) throw std::runtime_error("cannot run " + executable);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, readTextFile(output), readTextFile(errors)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, device.empty() ? readTextFile(output) : "",
+          readTextFile(errors)};
 }
 
 }  // namespace sks::test

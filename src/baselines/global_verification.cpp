@@ -56,7 +56,7 @@ void configure(pcl::GlobalHypothesesVerification<HvPoint, HvPoint>& verification
 
 }  // namespace
 
-HypothesisCheck globalVerification(std::shared_ptr<const Codebook> codebook, const AldomaSettings& settings,
+HypothesisCheck globalVerification(const std::shared_ptr<const Codebook>& codebook, const AldomaSettings& settings,
                                    const RefinementSettings& refinement, int threads) {
   return [=](std::vector<RatedHypothesis> hypotheses, const Surface& scene) {
     if (hypotheses.size() > std::size_t(settings.hypotheses)) hypotheses.resize(std::size_t(settings.hypotheses));

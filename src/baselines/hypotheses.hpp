@@ -31,7 +31,7 @@ std::vector<RatedHypothesis> groupedHypotheses(const Codebook& codebook, const F
 std::vector<RatedHypothesis> withoutDuplicates(std::vector<RatedHypothesis> hypotheses, double distance);
 
 /// ICP and PCL's global hypothesis verification.
-HypothesisCheck globalVerification(std::shared_ptr<const Codebook> codebook, const AldomaSettings& settings,
+HypothesisCheck globalVerification(const std::shared_ptr<const Codebook>& codebook, const AldomaSettings& settings,
                                    const RefinementSettings& refinement, int threads);
 
 /// ICP and validation, twice.

@@ -29,6 +29,7 @@ const SettingInfo& infoOf(const std::string& key) {
   const auto found = std::find_if(infos.begin(), infos.end(), [&](const SettingInfo& info) { return info.key == key; });
   if (found != infos.end()) return *found;
   std::vector<std::string> keys;
+  keys.reserve(infos.size());
   for (const SettingInfo& info : infos) keys.push_back(info.key);
   throw Error(ErrorCode::bad_usage, "unknown setting '" + key + "': did you mean '" + nearestName(key, keys) + "'?");
 }

@@ -72,8 +72,8 @@ const Method* findMethod(const std::string& name) {
   return found == methods().end() ? nullptr : &*found;
 }
 
-DetectFunction makeDetect(const std::string& name, std::shared_ptr<const Codebook> codebook, const Settings& settings,
-                          const MethodSettings& own) {
+DetectFunction makeDetect(const std::string& name, const std::shared_ptr<const Codebook>& codebook,
+                          const Settings& settings, const MethodSettings& own) {
   silencePcl();
   const auto detector =
       std::make_shared<const SceneDetector>(codebook, settings, groupingOf(name, settings, own),
@@ -81,7 +81,7 @@ DetectFunction makeDetect(const std::string& name, std::shared_ptr<const Codeboo
   return [=](const Cloud& cloud) { return detector->detect(cloud); };
 }
 
-ClassifyFunction makeClassify(const std::string& name, std::shared_ptr<const Codebook> codebook,
+ClassifyFunction makeClassify(const std::string& name, const std::shared_ptr<const Codebook>& codebook,
                               const Settings& settings, const MethodSettings& own, ViewKind kind) {
   silencePcl();
   if (name == "knopp") return classifyWith<ShapeModelClassifier>(kind, codebook, settings, own.knopp);

@@ -30,11 +30,11 @@ const std::vector<Method>& methods();
 const Method* findMethod(const std::string& name);
 
 /// @param name of a method that detects @throws Error(bad_usage), Error(incompatible) like Detector
-DetectFunction makeDetect(const std::string& name, std::shared_ptr<const Codebook> codebook, const Settings& settings,
-                          const MethodSettings& own);
+DetectFunction makeDetect(const std::string& name, const std::shared_ptr<const Codebook>& codebook,
+                          const Settings& settings, const MethodSettings& own);
 
 /// @param name of a method that classifies @param kind of the clouds @throws like Classifier
-ClassifyFunction makeClassify(const std::string& name, std::shared_ptr<const Codebook> codebook,
+ClassifyFunction makeClassify(const std::string& name, const std::shared_ptr<const Codebook>& codebook,
                               const Settings& settings, const MethodSettings& own, ViewKind kind);
 
 }  // namespace sks::baselines

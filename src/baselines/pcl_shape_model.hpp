@@ -102,6 +102,7 @@ double sks::baselines::ShapeModelEstimation::computeKMeansClustering(const Eigen
 /// The votes for one class; keypoints are taken as they come.
 template <>
 features::ISMVoteList<PointXYZ>::Ptr sks::baselines::ShapeModelEstimation::findObjects(
+    // PCL's signature. NOLINTNEXTLINE(performance-unnecessary-value-param)
     ISMModelPtr model, PointCloud<PointXYZ>::Ptr keypoints, PointCloud<Normal>::Ptr normals, int wanted_class) {
   features::ISMVoteList<PointXYZ>::Ptr votes(new features::ISMVoteList<PointXYZ>);
   PointCloud<sks::baselines::ShapeHistogram>::Ptr histograms(new PointCloud<sks::baselines::ShapeHistogram>);

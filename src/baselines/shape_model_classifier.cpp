@@ -30,8 +30,9 @@ float samplingSize(const Settings& settings) {
 /// An estimation for one thread.
 ShapeModelEstimation makeEstimation(const Settings& settings, const KnoppSettings& own, const DescriptorMatrix& rows) {
   ShapeModelEstimation estimation;
-  ShapeModelEstimation::FeaturePtr feature(new StoredDescriptors);
-  static_cast<StoredDescriptors&>(*feature).setRows(rows);
+  auto* const stored = new StoredDescriptors;
+  const ShapeModelEstimation::FeaturePtr feature(stored);
+  stored->setRows(rows);
   estimation.setFeatureEstimator(feature);
   estimation.setSamplingSize(samplingSize(settings));
   estimation.setNumberOfClusters(unsigned(own.clusters));

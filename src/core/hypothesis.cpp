@@ -49,8 +49,8 @@ FrameConsensus consensusOfFrame(const Codebook& codebook, const std::vector<Vote
                                 const std::vector<std::uint32_t>& members, const RansacSettings& settings) {
   std::vector<Eigen::Vector3d> model, scene;
   for (const std::uint32_t i : members) {
-    model.push_back(position(codebook, votes[i]).cast<double>());
-    scene.push_back(votes[i].keypoint.cast<double>());
+    model.emplace_back(position(codebook, votes[i]).cast<double>());
+    scene.emplace_back(votes[i].keypoint.cast<double>());
   }
   FrameConsensus consensus;
   const RigidConsensus found = rigidRansac(model, scene, settings);
@@ -108,6 +108,7 @@ bool estimateHypothesis(const Codebook& codebook, std::uint32_t object, const st
   hypothesis.votes = std::uint32_t(maximum.votes.size());
   hypothesis.inliers = inliers;
   std::vector<Eigen::Vector3f> positions;
+  positions.reserve(inliers.size());
   for (const std::uint32_t i : inliers) positions.push_back(votes[i].position);
   hypothesis.density = kernelDensity(maximum.position, positions, settings.voting.bandwidth);
   return true;

@@ -16,7 +16,7 @@ std::size_t mergedBins(std::size_t bins) {
 }
 
 std::uint32_t bitsOf(float value) {
-  std::uint32_t bits;
+  std::uint32_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
   return bits;
 }
@@ -28,7 +28,7 @@ std::uint16_t toBfloat16(float value) {
 
 float fromBfloat16(std::uint16_t half) {
   const std::uint32_t bits = std::uint32_t(half) << 16;
-  float value;
+  float value = 0;
   std::memcpy(&value, &bits, sizeof value);
   return value;
 }

@@ -42,8 +42,9 @@ std::optional<Pinhole> fitPinhole(const Cloud& cloud, int threads) {
   LineFit columns, rows;
   for (std::size_t i = 0; i < n; i += std::max<std::size_t>(1, n / sample_size)) {
     const Eigen::Vector3f& p = cloud.points[i];
+    const std::uint32_t row = cloud.pixels[i] / cloud.columns;
     columns.add(p.x() / p.z(), cloud.pixels[i] % cloud.columns);
-    rows.add(p.y() / p.z(), cloud.pixels[i] / cloud.columns);
+    rows.add(p.y() / p.z(), row);
   }
   Pinhole camera;
   std::tie(camera.focal_x, camera.center_x) = columns.line();

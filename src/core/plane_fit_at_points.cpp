@@ -55,7 +55,7 @@ void fitPlanesAtPointsImpl(const PointGrid& grid, std::size_t begin, std::size_t
   thread_local std::vector<PointGrid::Run> rows, windows;  // kept from frame to frame
   Moments moments;
   Fits fits;
-  for (std::size_t first = begin, row_end = begin, next; first < end; first = next) {
+  for (std::size_t first = begin, row_end = begin, next = begin; first < end; first = next) {
     if (first == row_end) {
       row_end = grid.findRows(first, radius, rows);
       windows.clear();

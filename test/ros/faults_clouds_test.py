@@ -114,8 +114,12 @@ class FaultyCloudsTest(unittest.TestCase):
             self.expect_good()
             before = node.memory()
             for _ in range(100):
-                for _ in range(100):
-                    self.source.publisher.publish(malformed(small, generator))
+                self.detections.clear()
+                for _ in range(100):  # one after the other: of those that come at once only the newest is looked at
+                    cloud = malformed(small, generator)
+                    cloud.header.stamp = rospy.Time.now()
+                    answer = self.detections.wait_for_stamp(self.source.send(cloud))
+                    self.assertEqual(answer.header.frame_id, "camera")
                 self.expect_good()
             self.assertLess(node.memory() - before, 50)
             self.assertTrue(node.alive())

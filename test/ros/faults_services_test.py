@@ -125,11 +125,45 @@ class FaultyServicesTest(services_support.ServicesTest):
         os.remove(self.file)
         self.expect_objects(["round", "thing"])
         self.refuse("load_codebook", "replaced.sks", "No such file", path="replaced.sks")
-        subprocess.check_call(["rosrun", "sks_detector", "sks", "train", "--dataset", self.dataset_of("thing"),
-                               "--output", self.file], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.train(self.file)
         self.expect_objects(["round", "thing"])
         self.assertNotEqual(self.succeed("load_codebook", "replaced.sks").codebook, self.loaded)
         self.expect_objects(["thing"])
+
+    def test_a_codebook_file_that_is_replaced_while_it_is_in_use(self):
+        """As a whole, again and again, by another process; frames see the one or the other."""
+        one = os.path.join(self.node.codebooks, "one.sks")
+        self.train(one)
+        known = {self.loaded: ["round", "thing"], self.succeed("load_codebook", "one.sks").codebook: ["thing"]}
+        going = threading.Event()
+        going.set()
+
+        def replace():
+            for source in itertools.cycle((one, support.CODEBOOK)):
+                shutil.copy(source, self.file + ".new")
+                os.replace(self.file + ".new", self.file)
+                if not going.is_set():
+                    break
+
+        writer = threading.Thread(target=replace)
+        with Frames(self.source) as frames:
+            writer.start()
+            try:
+                replies = [self.succeed("load_codebook", "replaced.sks") for _ in range(200)]
+                answers = len(frames.answers)
+                support.wait_for(lambda: len(frames.answers) > answers + 3, "frames afterwards")
+            finally:
+                going.clear()
+                writer.join()
+        self.assertEqual({reply.codebook for reply in replies}, set(known))
+        for reply in replies:
+            self.assertEqual(sorted(reply.objects), known[reply.codebook])
+        for answer in frames.answers:
+            self.expect_objects(known[answer.codebook], answer)
+
+    def train(self, file):
+        subprocess.check_call(["rosrun", "sks_detector", "sks", "train", "--dataset", self.dataset_of("thing"),
+                               "--output", file], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def dataset_of(self, name):
         return self.write_dataset("one.yaml", [{"object": name, "cloud": name + ".pcd", "kind": "view"}])

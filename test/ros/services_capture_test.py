@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Training views from the camera: capture, train, detect; what is refused; restarts."""
 import os
-import threading
 
 import numpy as np
 import rospy
@@ -23,17 +22,6 @@ class CaptureServicesTest(services_support.ServicesTest):
 
     def file(self, name):
         return os.path.join(self.node.datasets, "captured", name)
-
-    def capture(self, points, name, colors=None, frame="camera"):
-        """Calls the service, then publishes until it replies: it takes the next cloud."""
-        replies = []
-        call = threading.Thread(target=lambda: replies.append(self.node.call("capture_view", name, 30)))
-        call.start()
-        while call.is_alive():
-            if self.source.publisher.get_num_connections() > 0:
-                self.source.publisher.publish(support.cloud_message(points, frame, None, colors))
-            call.join(0.05)
-        return replies[0]
 
     def captured(self, *arguments, **fields):
         reply = self.capture(*arguments, **fields)

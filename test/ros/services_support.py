@@ -5,6 +5,7 @@ import shutil
 import signal
 import subprocess
 import tempfile
+import threading
 import unittest
 
 import numpy as np
@@ -46,6 +47,10 @@ class DetectorProcess:
 
     def alive(self):
         return self.process.poll() is None
+
+    def kill(self):
+        self.process.kill()
+        self.process.wait()
 
     def stop(self):
         """The exit status."""
@@ -90,6 +95,17 @@ class ServicesTest(unittest.TestCase):
             self.assertIn(reason, reply.message)
         self.status.wait_for(lambda s: reply.message in s.last_error, "the error in the status")
         return reply
+
+    def capture(self, points, name, colors=None, frame="camera"):
+        """Calls the service, then publishes until it replies: it takes the next cloud."""
+        replies = []
+        call = threading.Thread(target=lambda: replies.append(self.node.call("capture_view", name, 30)))
+        call.start()
+        while call.is_alive():
+            if self.source.publisher.get_num_connections() > 0:
+                self.source.publisher.publish(support.cloud_message(points, frame, None, colors))
+            call.join(0.05)
+        return replies[0]
 
     def wait_for_status(self, condition, what):
         return support.wait_for(lambda: self.status.messages and condition(self.status.messages[-1]) and

@@ -35,26 +35,30 @@ class Recorder:
     def __init__(self, topic, message_type):
         self.topic = topic
         self._messages = []
-        self._lock = threading.Lock()
+        self._changed = threading.Condition()
         self._subscriber = rospy.Subscriber(topic, message_type, self._receive)
 
     def _receive(self, message):
-        with self._lock:
+        with self._changed:
             self._messages.append(message)
+            self._changed.notify_all()
 
     @property
     def messages(self):
-        with self._lock:
+        with self._changed:
             return list(self._messages)
 
     def clear(self):
-        with self._lock:
+        with self._changed:
             self._messages = []
 
     def wait_for(self, condition=lambda message: True, what="a message", timeout=PATIENCE):
-        """The first message that fulfils the condition."""
-        return wait_for(lambda: next((m for m in self.messages if condition(m)), None),
-                        "%s on %s" % (what, self.topic), timeout)
+        """The first message that fulfils the condition, as soon as it comes."""
+        with self._changed:
+            found = self._changed.wait_for(lambda: next((m for m in self._messages if condition(m)), None), timeout)
+        if found is None:
+            raise AssertionError("waited %.0f s for %s on %s" % (timeout, what, self.topic))
+        return found
 
     def wait_for_stamp(self, stamp, timeout=PATIENCE):
         return self.wait_for(lambda m: m.header.stamp == stamp, "an answer to the cloud of %s" % stamp, timeout)
