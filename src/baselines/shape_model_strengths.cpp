@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "baselines/shape_model_classifier.hpp"
-
 #include <algorithm>
-#include <utility>
 
+#include "baselines/object_strengths.hpp"
 #include "baselines/pcl_shape_model.hpp"
-#include "core/scene_description.hpp"
-#include "core/stopwatch.hpp"
 
 namespace sks::baselines {
 namespace {
@@ -39,19 +35,11 @@ ShapeModelEstimation makeEstimation(const Settings& settings, const KnoppSetting
   return estimation;
 }
 
-}  // namespace
-
-struct ShapeModelClassifier::ShapeModel {
-  pcl::features::ISMModel::Ptr trained{new pcl::features::ISMModel};
-};
-
-ShapeModelClassifier::ShapeModelClassifier(std::shared_ptr<const Codebook> codebook, const Settings& settings,
-                                           const KnoppSettings& own)
-    : codebook_(std::move(codebook)), settings_(settingsFor(*codebook_, settings)), own_(own) {
-  own_.clusters = std::min(own_.clusters, int(codebook_->words.size()));
-  std::vector<DescribedCloud> views(codebook_->views.size());
-  for (std::uint32_t i = 0; i < codebook_->words.size(); ++i) {
-    views[codebook_->words[i].view].add(codebook_->words[i].position, codebook_->words[i].frame, i);
+pcl::features::ISMModel::Ptr trainShapeModel(const Codebook& codebook, const Settings& settings,
+                                             const KnoppSettings& own) {
+  std::vector<DescribedCloud> views(codebook.views.size());
+  for (std::uint32_t i = 0; i < codebook.words.size(); ++i) {
+    views[codebook.words[i].view].add(codebook.words[i].position, codebook.words[i].frame, i);
   }
   std::vector<pcl::PointCloud<pcl::PointXYZ>::Ptr> clouds;
   std::vector<pcl::PointCloud<pcl::Normal>::Ptr> normals;
@@ -60,49 +48,48 @@ ShapeModelClassifier::ShapeModelClassifier(std::shared_ptr<const Codebook> codeb
     if (views[i].points->empty()) continue;
     clouds.push_back(views[i].points);
     normals.push_back(views[i].normals);
-    classes.push_back(codebook_->views[i].object);
+    classes.push_back(codebook.views[i].object);
   }
-  ShapeModelEstimation estimation = makeEstimation(settings_, own_, codebook_->descriptors);
+  ShapeModelEstimation estimation = makeEstimation(settings, own, codebook.descriptors);
   estimation.setTrainingClouds(clouds);
   estimation.setTrainingNormals(normals);
   estimation.setTrainingClasses(classes);
-  estimation.setSigmaDists(std::vector<float>(codebook_->objects.size(), float(own_.learning_sigma)));
-  auto model = std::make_unique<ShapeModel>();
-  estimation.trainISM(model->trained);
-  model_ = std::move(model);
+  estimation.setSigmaDists(std::vector<float>(codebook.objects.size(), float(own.learning_sigma)));
+  pcl::features::ISMModel::Ptr model(new pcl::features::ISMModel);
+  estimation.trainISM(model);
+  return model;
 }
 
-ShapeModelClassifier::~ShapeModelClassifier() = default;
-
-Classification ShapeModelClassifier::classify(const Cloud& cloud, ViewKind kind) const {
-  Classification result;
-  Stopwatch total;
-  const Orientation orientation = kind == ViewKind::model ? Orientation::outward : Orientation::sensor;
-  const auto no_match = [](const DescriptorMatrix&, int) { return std::vector<Match>(); };
-  const SceneDescription scene =
-      describeScene(cloud, orientation, *codebook_, no_match, settings_, result.times, result.counts);
-
-  Stopwatch stage;
+DescribedCloud describedCloud(const SceneDescription& scene) {
   DescribedCloud described;
   for (std::size_t row = 0; row < scene.descriptors.keypoints.size(); ++row) {
     described.add(scene.keypoints.positions[scene.descriptors.keypoints[row]], scene.descriptors.frames[row],
                   std::uint32_t(row));
   }
-  std::vector<double> strengths(codebook_->objects.size(), 0);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threadCount(settings_))
-  for (std::size_t object = 0; object < strengths.size(); ++object) {
-    ShapeModelEstimation estimation = makeEstimation(settings_, own_, scene.descriptors.values);
-    const auto votes = estimation.findObjects(model_->trained, described.points, described.normals, int(object));
-    std::vector<pcl::ISMPeak, Eigen::aligned_allocator<pcl::ISMPeak>> peaks;
-    if (votes->getNumberOfVotes() == 0) continue;
-    votes->findStrongestPeaks(peaks, int(object), settings_.voting.suppression_radius, own_.sigma);
-    for (const pcl::ISMPeak& peak : peaks) strengths[object] = std::max(strengths[object], peak.density);
-  }
-  result.candidates = rankedCandidates(codebook_->objects, strengths);
-  result.counts.hypotheses = result.candidates.size();
-  result.times.voting += stage.lap();
-  result.times.total = total.lap();
-  return result;
+  return described;
+}
+
+}  // namespace
+
+StrengthFunction shapeModelStrengths(const Codebook& codebook, const Settings& settings, KnoppSettings own) {
+  own.clusters = std::min(own.clusters, int(codebook.words.size()));
+  const pcl::features::ISMModel::Ptr model = trainShapeModel(codebook, settings, own);
+  return [=, objects = codebook.objects.size()](const SceneDescription& scene) {
+    const DescribedCloud described = describedCloud(scene);
+    ObjectStrengths strengths{std::vector<double>(objects, 0), 0};
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threadCount(settings))
+    for (std::size_t object = 0; object < objects; ++object) {
+      ShapeModelEstimation estimation = makeEstimation(settings, own, scene.descriptors.values);
+      const auto votes = estimation.findObjects(model, described.points, described.normals, int(object));
+      if (votes->getNumberOfVotes() == 0) continue;
+      std::vector<pcl::ISMPeak, Eigen::aligned_allocator<pcl::ISMPeak>> peaks;
+      votes->findStrongestPeaks(peaks, int(object), settings.voting.suppression_radius, own.sigma);
+      double& strength = strengths.of_object[object];
+      for (const pcl::ISMPeak& peak : peaks) strength = std::max(strength, peak.density);
+    }
+    strengths.hypotheses = objects - std::size_t(std::count(strengths.of_object.begin(), strengths.of_object.end(), 0));
+    return strengths;
+  };
 }
 
 }  // namespace sks::baselines
