@@ -92,12 +92,15 @@ def classification_tables(runs):
     text = ''
     for data_set in dict.fromkeys(label for label, _, _ in runs):
         here = [(job, result) for label, job, result in runs if label == data_set]
+        discards = list(dict.fromkeys(job.discard for job, _ in here))
         rows = []
         for method in dict.fromkeys(job.method for job, _ in here):
-            of = [result for job, result in here if job.method == method]
-            rows.append([NAMES[method]] + [number(result['accuracy'], 3) for result in of] +
-                        [number(of[0]['time_ms']['total']['mean'] / 1000, 2), PAPER_CLASSIFICATION.get(method, '-')])
-        selections = [SELECTIONS[d] for d in dict.fromkeys(job.discard for job, _ in here)]
+            of = {job.discard: result for job, result in here if job.method == method}
+            seconds = of[0]['time_ms']['total']['mean'] / 1000 if 0 in of else None
+            rows.append([NAMES[method]] + [number(of[discard]['accuracy'] if discard in of else None, 3)
+                                           for discard in discards] +
+                        [number(seconds, 2), PAPER_CLASSIFICATION.get(method, '-')])
+        selections = [SELECTIONS[discard] for discard in discards]
         tests = here[0][1]['tests']
         text += f'\n### {data_set}: accuracy, {tests} tests\n\n' + table(
             ['method'] + selections + ['s per object', 'paper: PSB, MN10, MN40, WASH, BIGB'], rows)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sks_detector/classification.hpp>
 
+#include <cmath>
 #include <map>
 
 #include <gmock/gmock.h>
@@ -28,6 +29,7 @@ Settings shapeSettings() {
   settings.keypoints.discard = 0;
   settings.descriptor.radius = 0.08;
   settings.voting.min_votes = 1;
+  settings.verification.ambiguity = 1;
   return settings;
 }
 
@@ -79,7 +81,7 @@ TEST(Classifier, RanksCandidatesByTheirShareOfTheStrength) {
   EXPECT_GT(result.times.total, 0);
 }
 
-TEST(Classifier, BalanceWeighsDensityByCodewords) {
+TEST(Classifier, BalanceWeighsDensityByTheRootOfCodewords) {
   const auto codebook = shapes();
   std::map<std::string, double> words;
   for (const Codeword& word : codebook->words) words[codebook->objectOf(word)] += 1;
@@ -97,13 +99,32 @@ TEST(Classifier, BalanceWeighsDensityByCodewords) {
   ASSERT_GE(plain.size(), 2u);
   for (const auto& [object, score] : plain) {
     const double ratio = (balanced.at(object) / balanced.at("potato")) / (score / plain.at("potato"));
-    EXPECT_NEAR(ratio, words["potato"] / words[object], 1e-6) << object;
+    EXPECT_NEAR(ratio, std::sqrt(words["potato"] / words[object]), 1e-6) << object;
   }
+}
+
+TEST(Classifier, OtherObjectsNearlyAsNearVoteWithLessWeight) {
+  const auto codebook = shapes();
+  const auto classify = [&](double ambiguity) {
+    Settings settings = shapeSettings();
+    settings.verification.ambiguity = ambiguity;
+    return Classifier(codebook, settings, ClassBalance::none).classify(turned(test::cupShape()), ViewKind::model);
+  };
+  const Classification nearest = classify(1), some = classify(1.5), all = classify(10);
+  EXPECT_EQ(nearest.counts.votes, nearest.counts.descriptors);
+  EXPECT_GT(some.counts.votes, nearest.counts.votes);
+  EXPECT_EQ(all.counts.votes, 3 * all.counts.descriptors);  // one of each object
+  for (const Classification* result : {&nearest, &some, &all}) EXPECT_EQ(result->object(), "cup");
+  // the farther a codeword the less it weighs, so that the last ones change next to nothing
+  ASSERT_EQ(all.candidates.size(), 3u);
+  EXPECT_NEAR(all.candidates[0].score, some.candidates[0].score, 0.02);
+  EXPECT_LT(all.candidates[0].score, nearest.candidates[0].score);
 }
 
 TEST(Classifier, DoesNotDependOnThreads) {
   const auto codebook = shapes();
   Settings settings = shapeSettings();
+  settings.verification.ambiguity = 1.3;
   std::vector<std::vector<double>> scores;
   for (const int threads : {1, 3}) {
     settings.threads = threads;

@@ -11,7 +11,7 @@
 #include <sks_detector/codebook.hpp>
 #include <sks_detector/dataset.hpp>
 #include <sks_detector/detection.hpp>
-#include <sks_detector/matching.hpp>
+#include <sks_detector/object_matching.hpp>
 #include <sks_detector/progress.hpp>
 #include <sks_detector/settings.hpp>
 
@@ -35,15 +35,9 @@ struct Classification {
 /// How the Hough maxima of different objects are compared.
 enum class ClassBalance {
   none,      ///< by their density alone, as published
-  codewords  ///< by density over the object's codewords: who has more of them catches more votes by chance
+  codewords  ///< by density over the root of the object's codewords: who has more of them catches more votes by chance,
+             ///< but also more of those that are right
 };
-
-/// What the density of one vote counts, for each object.
-std::vector<double> voteStrengths(const Codebook& codebook, ClassBalance balance);
-
-/// Objects with a strength above 0, strongest first, each with its share of all strengths; ties by name.
-std::vector<Classification::Candidate> rankedCandidates(const std::vector<std::string>& objects,
-                                                        const std::vector<double>& strengths);
 
 /// Classifies isolated objects by the strongest hypothesis: no RANSAC, no verification, since another shape of the same
 /// class fits no rigid pose. Immutable: classify() may be called from several threads. Same cloud, same result, for any
@@ -61,7 +55,7 @@ public:
 private:
   std::shared_ptr<const Codebook> codebook_;
   Settings settings_;
-  Matcher matcher_;
+  ObjectMatcher matcher_;
   std::vector<double> strength_;  ///< of one vote, for each object
 };
 

@@ -120,16 +120,15 @@ struct KnoppSettings {
   }
 };
 
-/// Continuous voting with votes weighted by distance ratio (Seib et al. 2015), to classify.
+/// Continuous voting with votes weighted by distance ratio (Seib et al. 2015), to classify; how far the ratio may go is
+/// `verification.ambiguity`.
 struct SeibSettings {
-  double distance_ratio = 1.2;
   bool balance = true;
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
-    v(s.distance_ratio, "distance_ratio", Range{1, 10}, "",
-      "each class's nearest codeword votes, with less weight, up to this multiple of the nearest one's distance");
-    v(s.balance, "balance", "density over the class's codewords: who has more of them catches more by chance");
+    v(s.balance, "balance",
+      "density over the root of the class's codewords: who has more of them catches more by chance");
   }
 };
 

@@ -6,22 +6,13 @@
 
 #include <pcl/console/print.h>
 
-#include "baselines/group_classifier.hpp"
+#include "baselines/object_strengths.hpp"
 #include "baselines/scene_detector.hpp"
-#include "baselines/shape_model_classifier.hpp"
-#include "baselines/weighted_voting_classifier.hpp"
 
 namespace sks::baselines {
 namespace {
 
 const char* const isolated_only = "it says what an isolated object is, but has no pose: use sks classify";
-
-/// A function that keeps what it calls.
-template <typename Maker, typename... Arguments>
-ClassifyFunction classifyWith(ViewKind kind, Arguments&&... arguments) {
-  const auto classifier = std::make_shared<const Maker>(std::forward<Arguments>(arguments)...);
-  return [=](const Cloud& cloud) { return classifier->classify(cloud, kind); };
-}
 
 /// PCL would report on stderr each group in which nothing agrees.
 void silencePcl() {
@@ -83,10 +74,23 @@ DetectFunction makeDetect(const std::string& name, const std::shared_ptr<const C
 
 ClassifyFunction makeClassify(const std::string& name, const std::shared_ptr<const Codebook>& codebook,
                               const Settings& settings, const MethodSettings& own, ViewKind kind) {
+  if (name == "seib") {  // this package's own, with a balance to be set
+    const ClassBalance balance = own.seib.balance ? ClassBalance::codewords : ClassBalance::none;
+    const auto classifier = std::make_shared<const Classifier>(codebook, settings, balance);
+    return [=](const Cloud& cloud) { return classifier->classify(cloud, kind); };
+  }
   silencePcl();
-  if (name == "knopp") return classifyWith<ShapeModelClassifier>(kind, codebook, settings, own.knopp);
-  if (name == "seib") return classifyWith<WeightedVotingClassifier>(kind, codebook, settings, own.seib);
-  return classifyWith<GroupClassifier>(kind, codebook, settings, groupingOf(name, settings, own));
+  const Settings used = settingsFor(*codebook, settings);
+  MatchFunction match = [](const DescriptorMatrix&, int) { return std::vector<Match>(); };
+  StrengthFunction strengths;
+  if (name == "knopp") {
+    strengths = shapeModelStrengths(*codebook, used, own.knopp);
+  } else {
+    const auto matcher = std::make_shared<const Matcher>(codebook->descriptors);
+    match = [matcher](const DescriptorMatrix& d, int threads) { return matcher->match(d, threads); };
+    strengths = groupStrengths(codebook, groupingOf(name, settings, own), threadCount(used));
+  }
+  return [=](const Cloud& cloud) { return classifyIsolated(cloud, kind, *codebook, match, used, strengths); };
 }
 
 }  // namespace sks::baselines

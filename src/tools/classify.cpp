@@ -77,8 +77,8 @@ void addClassify(CLI::App& app) {
   options->settings.add(*command);
   options->json.add(*command);
   command->footer(
-      "Without --codebook, settings start from config/classify.yaml;\nsks-paper then compares densities as published "
-      "and drops half of the keypoints.");
+      "Without --codebook, settings start from config/classify.yaml;\nsks-paper then compares densities as published, "
+      "lets only the nearest codeword vote and drops half of the keypoints.");
   command->callback([options] { run(*options); });
 }
 

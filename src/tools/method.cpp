@@ -76,7 +76,10 @@ void MethodOption::applyForIsolatedObjects(const SettingsOptions& options, Setti
     refuse(name_, method->no_classification);
     return applyBaseline("config/methods/" + name_ + "_classify.yaml", options, settings);
   }
-  if (name_ == "sks-paper") settings.keypoints.discard = 0.5;  // SKS-50
+  if (name_ == "sks-paper") {
+    settings.keypoints.discard = 0.5;  // SKS-50
+    settings.verification.ambiguity = 1;
+  }
   options.apply(settings);
   if (name_ == "grid") useWholeGrid(settings.keypoints);
 }

@@ -26,8 +26,9 @@ public:
   /// @throws Error(bad_usage) for a method that does not detect too, Error(bad_file)
   void applyForScenes(const SettingsOptions& options, Settings& settings);
 
-  /// The same for isolated objects: the published method then differs in its selection alone, since what it is
-  /// published with suits scenes. @throws Error(bad_usage) for a method that does not classify too, Error(bad_file)
+  /// The same for isolated objects: the published method then differs in its selection and in that only the nearest
+  /// codeword votes, since what else it is published with suits scenes. @throws Error(bad_usage) for a method that does
+  /// not classify too, Error(bad_file)
   void applyForIsolatedObjects(const SettingsOptions& options, Settings& settings);
 
   /// @throws what the constructor of Detector throws
