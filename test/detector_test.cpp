@@ -198,6 +198,7 @@ TEST(Detector, IsDeterministic) {
 TEST(Detector, CountsAndOrdersWhatItDoes) {
   sks::Settings settings;
   settings.keypoints.discard = 0.25;
+  settings.verification.skip_planes = false;
   const sks::Cloud scene = clutteredScene();
   EXPECT_GT(sks::Detector(twoObjects(), settings).detect(scene).counts.votes,
             sks::Detector(twoObjects(), settings).detect(scene).counts.descriptors);  // of other objects too
@@ -223,6 +224,23 @@ TEST(Detector, CountsAndOrdersWhatItDoes) {
   for (const auto& detection : result.above(threshold)) EXPECT_GE(detection.score, threshold);
   EXPECT_GE(result.above(threshold).size(), 2u);
   EXPECT_TRUE(result.above(1).empty());
+}
+
+TEST(Detector, FindsTheSameWithoutTheKeypointsOfTheWall) {
+  std::vector<Placed> placed{{asymmetricShape(), poseOf(35, {1, 2, 0.5f}, {0, 0, 0.8f})}};
+  placed.push_back({{{sks::test::Solid::Shape::box, {0, 0, 0}, {0.8f, 0.8f, 0.01f}}}, poseOf(0, {0, 0, 1}, {0, 0, 1.2f})});
+  const sks::Cloud scene = sks::test::view(placed, 0.0025f, 320, 240);
+  const auto codebook = std::make_shared<const sks::Codebook>(sks::train(
+      {sampleOf("thing", sks::test::view({placed.front()}))}, sks::Settings(), "synthetic"));
+  sks::Settings settings;
+  const auto without = sks::Detector(codebook, settings).detect(scene);
+  settings.verification.skip_planes = false;
+  const auto with = sks::Detector(codebook, settings).detect(scene);
+  EXPECT_LT(without.counts.keypoints, with.counts.keypoints / 2);
+  EXPECT_EQ(without.counts.grid_keypoints, with.counts.grid_keypoints);
+  ASSERT_EQ(without.above(0.5).size(), 1u);
+  ASSERT_EQ(with.above(0.5).size(), 1u);
+  EXPECT_LT((without.detections[0].position() - with.detections[0].position()).norm(), 0.001);
 }
 
 TEST(Detector, EmptyResultWhereNothingCanBeDescribed) {

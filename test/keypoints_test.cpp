@@ -66,6 +66,17 @@ TEST(GridKeypoints, OfNoPointsAreNone) {
   EXPECT_EQ(sks::gridKeypoints(sks::makeSurface({}, 0.01), 0.02).size(), 0u);
 }
 
+TEST(GridKeypoints, AndThinningDoNotDependOnThreads) {
+  const sks::Cloud cloud = sks::test::randomCloud(20000, 1, 5);
+  const sks::Surface surface = sks::makeSurface(cloud, 0.01);
+  const auto once = sks::gridKeypoints(surface, 0.05, 1).positions;
+  const auto thinned = sks::thin(cloud, 0.05, 1).points;
+  for (const int threads : {2, 3}) {
+    EXPECT_EQ(sks::gridKeypoints(surface, 0.05, threads).positions, once);
+    EXPECT_EQ(sks::thin(cloud, 0.05, threads).points, thinned);
+  }
+}
+
 TEST(IssKeypoints, ArePointsOfTheSurfaceAndTheSameForAnyThreads) {  // trap 9
   const sks::Surface surface = sks::makeSurface(sks::test::bumps(), 0.01);
   sks::KeypointSettings settings;

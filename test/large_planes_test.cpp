@@ -38,9 +38,20 @@ TEST(LargePlanes, OfTinyScenesAreNone) {
   EXPECT_TRUE(findLargePlanes(prepared(plane(0.03f, 0.005f))).empty());
 }
 
-TEST(LargePlanes, AreTheSameEachTime) {
+TEST(LargePlanes, KeypointsOffThemStay) {
+  const LargePlane table{{0, -1, 0}, -0.3f, 0.8f};
+  Keypoints keypoints;
+  keypoints.positions = {{0, 0.3f, 1}, {0, 0.2f, 1}, {0.1f, 0.305f, 1}, {0.2f, 0.3f, 1}};
+  keypoints.normals = {{0, -1, 0}, {0, -1, 0}, {0, -1, 0}, {0, 0, -1}};  // the last one stands on the table
+  keypoints.curvature = {1, 2, 3, 4};
+  EXPECT_EQ(keypointsOffPlanes(keypoints, {table}, 0.5f).curvature, (std::vector<float>{2, 4}));
+  EXPECT_EQ(keypointsOffPlanes(keypoints, {table}, 0.9f).size(), 4u);  // no larger than the objects
+  EXPECT_EQ(keypointsOffPlanes(keypoints, {}, 0.5f).positions, keypoints.positions);
+}
+
+TEST(LargePlanes, AreTheSameEachTimeForAnyThreads) {
   const Surface scene = prepared(view({{asymmetricShape(), poseOf(35, {1, 2, 0.5f}, {0, 0, 0.8f})}}));
-  const auto a = findLargePlanes(scene), b = findLargePlanes(scene);
+  const auto a = findLargePlanes(scene, 1), b = findLargePlanes(scene, 3);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].normal, b[i].normal);
 }

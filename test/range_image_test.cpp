@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/range_image.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "prepared.hpp"
@@ -47,6 +49,17 @@ TEST(RangeImage, GivesThePointThatWasSeen) {
   }
   EXPECT_NEAR(image.look({0.1f, 0, 1}, 0.015f).cell->z, 0.7f, 0.002f);
   EXPECT_EQ(image.pointOf(image.look({0.8f, 0, 1}, 0.015f)), no_point);
+}
+
+TEST(RangeImage, DoesNotDependOnThreads) {
+  const Surface scene = prepared(twoWalls());
+  const RangeImage one(scene, 0.01f, 1), three(scene, 0.01f, 3);
+  ASSERT_EQ(one.cells().size(), three.cells().size());
+  for (std::size_t i = 0; i < one.cells().size(); ++i) {
+    EXPECT_EQ(one.cells()[i].nearest, three.cells()[i].nearest);
+    EXPECT_EQ(one.cells()[i].farthest, three.cells()[i].farthest);
+    if (!std::isnan(one.cells()[i].x)) EXPECT_EQ(one.cells()[i].position(), three.cells()[i].position());
+  }
 }
 
 TEST(RangeImage, MovesWithTheSensor) {

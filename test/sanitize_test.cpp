@@ -73,6 +73,20 @@ TEST(Sanitize, CountsWhatItTakesAwayAndKeepsTheOrder) {
   EXPECT_EQ(report.duplicates, 0u);
 }
 
+TEST(Sanitize, DoesNotDependOnThreads) {
+  sks::Cloud cloud = sks::test::randomCloud(2000, 1, 3);
+  for (std::size_t i = 0; i < 500; ++i) append(cloud, cloud.points[7 * i % 300]);  // some of them twice
+  for (std::size_t i = 0; i < 2000; i += 11) cloud.points[i].setConstant(not_a_number);
+  sks::SanitizeReport report, other;
+  const sks::Cloud kept = sks::sanitize(cloud, {}, &report, 1);
+  EXPECT_GT(report.duplicates, 100u);
+  for (const int threads : {2, 3, 8}) {
+    EXPECT_EQ(sks::sanitize(cloud, {}, &other, threads).points, kept.points);
+    EXPECT_EQ(other.duplicates, report.duplicates);
+    EXPECT_EQ(other.invalid, report.invalid);
+  }
+}
+
 TEST(Sanitize, OrganisedCloudWithHolesBecomesAList) {
   sks::Cloud cloud = line();
   cloud.colors.clear();

@@ -24,7 +24,7 @@ using MatchFunction = std::function<std::vector<Match>(const DescriptorMatrix&, 
 /// Chi squared distance of two histograms, in the order of the formula; bins with a + b = 0 add nothing.
 double chiSquared(const float* a, const float* b, std::size_t size);
 
-/// How nearest codewords are found; `automatic` is exact up to 65,536 codewords.
+/// How nearest codewords are found; `automatic` is exact up to 16,384 codewords.
 enum class SearchKind { automatic, exact, approximate };
 
 bool searchesExactly(SearchKind search, std::size_t words);

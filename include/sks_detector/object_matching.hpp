@@ -14,7 +14,7 @@ class NearestWord;
 
 /// Finds for each descriptor the nearest codeword of all, and that of every other object that is nearly as near: where
 /// objects resemble each other, or the nearest training view is far from the sensor's, the nearest of all often belongs
-/// to another object. Exact up to 65,536 codewords, as Matcher. Immutable once built: match() may be called from
+/// to another object. Exact up to 16,384 codewords, as Matcher. Immutable once built: match() may be called from
 /// several threads.
 class ObjectMatcher {
 public:
