@@ -228,10 +228,11 @@ TEST(Detector, CountsAndOrdersWhatItDoes) {
 
 TEST(Detector, FindsTheSameWithoutTheKeypointsOfTheWall) {
   std::vector<Placed> placed{{asymmetricShape(), poseOf(35, {1, 2, 0.5f}, {0, 0, 0.8f})}};
-  placed.push_back({{{sks::test::Solid::Shape::box, {0, 0, 0}, {0.8f, 0.8f, 0.01f}}}, poseOf(0, {0, 0, 1}, {0, 0, 1.2f})});
+  placed.push_back(
+      {{{sks::test::Solid::Shape::box, {0, 0, 0}, {0.8f, 0.8f, 0.01f}}}, poseOf(0, {0, 0, 1}, {0, 0, 1.2f})});
   const sks::Cloud scene = sks::test::view(placed, 0.0025f, 320, 240);
-  const auto codebook = std::make_shared<const sks::Codebook>(sks::train(
-      {sampleOf("thing", sks::test::view({placed.front()}))}, sks::Settings(), "synthetic"));
+  const auto codebook = std::make_shared<const sks::Codebook>(
+      sks::train({sampleOf("thing", sks::test::view({placed.front()}))}, sks::Settings(), "synthetic"));
   sks::Settings settings;
   const auto without = sks::Detector(codebook, settings).detect(scene);
   settings.verification.skip_planes = false;

@@ -15,8 +15,8 @@ namespace {
 Cloud twoWalls() {
   const Shape back{{Solid::Shape::box, {0, 0, 0}, {0.5f, 0.5f, 0.005f}}};
   const Shape front{{Solid::Shape::box, {0, 0, 0}, {0.15f, 0.3f, 0.005f}}};
-  return view({{back, poseOf(0, {0, 0, 1}, {0, 0, 1.005f})}, {front, poseOf(0, {0, 0, 1}, {0.15f, 0, 0.705f})}}, 0.0025f,
-              400, 400);
+  return view({{back, poseOf(0, {0, 0, 1}, {0, 0, 1.005f})}, {front, poseOf(0, {0, 0, 1}, {0.15f, 0, 0.705f})}},
+              0.0025f, 400, 400);
 }
 
 TEST(RangeImage, KnowsWhatIsHiddenSeenAndSeenThrough) {
@@ -31,9 +31,9 @@ TEST(RangeImage, KnowsWhatIsHiddenSeenAndSeenThrough) {
 
 TEST(RangeImage, KnowsNothingOfWhatWasNotMeasured) {
   const RangeImage image(prepared(twoWalls()), 0.01f);
-  EXPECT_EQ(image.look({0.8f, 0, 1}, 0.015f).sight, Sight::unknown);     // beside the wall
-  EXPECT_EQ(image.look({-0.2f, 0, -1}, 0.015f).sight, Sight::unknown);   // behind the camera
-  EXPECT_EQ(image.look({0, 0, 0}, 0.015f).sight, Sight::unknown);        // the camera itself
+  EXPECT_EQ(image.look({0.8f, 0, 1}, 0.015f).sight, Sight::unknown);    // beside the wall
+  EXPECT_EQ(image.look({-0.2f, 0, -1}, 0.015f).sight, Sight::unknown);  // behind the camera
+  EXPECT_EQ(image.look({0, 0, 0}, 0.015f).sight, Sight::unknown);       // the camera itself
 }
 
 TEST(RangeImage, GivesThePointThatWasSeen) {

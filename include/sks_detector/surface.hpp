@@ -42,8 +42,8 @@ void estimateNormals(Surface& surface, const SurfaceSettings& settings, Orientat
 /// A sanitized cloud, thinned, sorted and with normals: the input of every later stage.
 Surface prepareSurface(const Cloud& sanitized, const SurfaceSettings& settings, Orientation orientation, int threads);
 
-/// One point per occupied cube of the given edge: the one nearest to the centroid of the cube's points. The same for any
-/// number of threads.
+/// One point per occupied cube of the given edge: the one nearest to the centroid of the cube's points. The same for
+/// any number of threads.
 Cloud thin(const Cloud& cloud, double edge, int threads = 1);
 
 /// The same of points in a grid: their indices, by cube.

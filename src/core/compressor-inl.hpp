@@ -64,7 +64,9 @@ public:
 #endif
 
   /// Selected lanes.
-  HWY_INLINE std::size_t count() const { return count_; }
+  HWY_INLINE std::size_t count() const {
+    return count_;
+  }
 
 private:
 #if HWY_TARGET <= HWY_AVX3 || HWY_TARGET == HWY_SCALAR

@@ -38,7 +38,7 @@ public:
 private:
   std::vector<float> axes_;  // bin by bin, padded with zeros to `stride_` for each
   std::size_t stride_ = 0;
-  Eigen::VectorXf mean_;     // of the roots
+  Eigen::VectorXf mean_;  // of the roots
   Eigen::VectorXf mean_coordinates_;
   float mean_mass_ = 0;
 };

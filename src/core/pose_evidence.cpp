@@ -44,8 +44,8 @@ struct Partner {
 };
 
 /// The scene point within `distance` that the sensor saw in this direction, or else the one whose normal agrees best;
-/// `no_point` if none does by `agreement`. Prints shift by some pixels where a pose is a little off: of all such points,
-/// the one of the most similar colour counts.
+/// `no_point` if none does by `agreement`. Prints shift by some pixels where a pose is a little off: of all such
+/// points, the one of the most similar colour counts.
 Partner partnerOf(const Placed& placed, const Sighting& seen, const Eigen::Vector3f* color, const SceneView& scene,
                   float distance, float agreement, Partners partners, std::vector<PointGrid::Run>& runs) {
   const Surface& surface = scene.surface;
@@ -147,17 +147,15 @@ RoughSupport glance(const TrainingView& view, const Distinctiveness& telling, co
   forEachFacing(view, surface, T_scene_model, stride, [&](std::size_t i, const Placed& placed) {
     const Sighting seen = scene.range_image.look(placed.point, glance_occlusion);
     const Sight sight = seen.sight;
-    const bool confirmed =
-        seen.hasPoint() && placed.normal.dot(seen.cell->normal()) > glance_agreement &&
-        (seen.cell->position() - placed.point).squaredNorm() < glance_distance * glance_distance;
+    const bool confirmed = seen.hasPoint() && placed.normal.dot(seen.cell->normal()) > glance_agreement &&
+                           (seen.cell->position() - placed.point).squaredNorm() < glance_distance * glance_distance;
     if (confirmed) {
       ++support.points;
       const double agreement =
-          compares_color
-              ? colorAgreement(squaredColorDifference(view.surface_colors[i],
-                                                    surface.colorAt(scene.range_image.pointOf(seen))),
-                             color_tolerance)
-              : 1;
+          compares_color ? colorAgreement(squaredColorDifference(view.surface_colors[i],
+                                                                 surface.colorAt(scene.range_image.pointOf(seen))),
+                                          color_tolerance)
+                         : 1;
       support.supported += agreement * weights[i];
     }
     if (confirmed || sight == Sight::at || sight == Sight::in_front) {

@@ -83,8 +83,9 @@ HWY_INLINE hn::Vec<hn::RebindToSigned<Lanes>> cellsOf(const RangeImage::Projecti
   const auto column = hn::Div(hn::MulSub(ray.dot(repeat(image.axes.row(0))), inverse, set(image.u0)), set(image.cell));
   const auto row = hn::Div(hn::MulSub(ray.dot(repeat(image.axes.row(1))), inverse, set(image.v0)), set(image.cell));
   const auto zero = hn::Zero(d);
-  seen = hn::And(seen, hn::And(hn::And(hn::Ge(column, zero), hn::Ge(row, zero)),
-                               hn::And(hn::Lt(column, set(float(image.width))), hn::Lt(row, set(float(image.height))))));
+  seen =
+      hn::And(seen, hn::And(hn::And(hn::Ge(column, zero), hn::Ge(row, zero)),
+                            hn::And(hn::Lt(column, set(float(image.width))), hn::Lt(row, set(float(image.height))))));
   const auto index = [&](auto v) { return hn::ConvertTo(di, hn::IfThenElseZero(seen, v)); };
   return hn::Add(hn::Mul(index(row), hn::Set(di, image.width)), index(column));
 }

@@ -51,8 +51,9 @@ RangeImage::RangeImage(const Surface& scene, float radius, int threads) {
 
   std::vector<Eigen::Vector3f> projected(scene.size());
   float low_u = std::numeric_limits<float>::max(), low_v = low_u, high_u = -low_u, high_v = high_u;
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(min : low_u, low_v) \
-    reduction(max : high_u, high_v)
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(min                           \
+                                                                         : low_u, low_v) reduction(max \
+                                                                                                   : high_u, high_v)
   for (std::size_t i = 0; i < scene.size(); ++i) {
     const Eigen::Vector3f p = projected[i] = project(scene.point(i));
     if (p.z() < 0) continue;

@@ -16,9 +16,10 @@ struct PointPair {
 };
 
 /// Pairs of the model's points that face the sensor with their nearest scene points.
-std::vector<PointPair> findPairs(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
-                            const Surface& scene, std::size_t stride, float distance,
-                            const Eigen::Isometry3d& T_scene_model, std::vector<PointGrid::Run>& runs) {
+std::vector<PointPair> findPairs(const std::vector<Eigen::Vector3f>& points,
+                                 const std::vector<Eigen::Vector3f>& normals, const Surface& scene, std::size_t stride,
+                                 float distance, const Eigen::Isometry3d& T_scene_model,
+                                 std::vector<PointGrid::Run>& runs) {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   std::vector<PointPair> pairs;
   for (std::size_t i = 0; i < points.size(); i += stride) {

@@ -130,9 +130,10 @@ std::vector<std::uint32_t> distinctPoints(const Cloud& cloud, const std::vector<
   for (std::size_t share = 0; share < shares; ++share) {
     constexpr std::size_t block = 32;
     PositionSet seen(cloud.points, n / shares + n / 8);
-    std::size_t waiting[block], count = 0;
+    std::size_t waiting[block] = {}, count = 0;
     const auto insert = [&] {
-      for (std::size_t k = 0; k < count; ++k) distinct[waiting[k]] = seen.insert(indices[waiting[k]], hashes[waiting[k]]);
+      for (std::size_t k = 0; k < count; ++k)
+        distinct[waiting[k]] = seen.insert(indices[waiting[k]], hashes[waiting[k]]);
       count = 0;
     };
     for (std::size_t i = 0; i < n; ++i) {

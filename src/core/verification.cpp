@@ -21,7 +21,8 @@ constexpr double color_gain = 1.7;       // of evidence: what agrees in colour t
 constexpr double largest_claimed = 0.5;  // of the confirming points; else a hypothesis claims none itself
 
 constexpr std::size_t first_points = 250, last_points = 1500;  // of a surface, examined before and after the choice
-// Of the evidence that scores 0.5: what has less is not worth the last rounds, or a search for more than what is in sight.
+// Of the evidence that scores 0.5: what has less is not worth the last rounds, or a search for more than what is in
+// sight.
 constexpr double plausible_share = 0.5, hopeless_share = 0.15;
 
 /// Of ICP with nearest pairs, for poses that are a fraction of a millimetre off.

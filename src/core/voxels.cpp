@@ -56,8 +56,10 @@ std::vector<Segment> sortedSegments(std::size_t count, double edge, PointAt&& po
   const auto check = [&](const Eigen::Vector3f& corner) { cellKey(corner, 1.0 / edge); };  // no error may leave threads
   Eigen::AlignedBox3f box;
   for (std::size_t i = 0; i < count; ++i) box.extend(point(i));
-  if (count > 0) check(box.min());
-  if (count > 0) check(box.max());
+  if (count > 0) {
+    check(box.min());
+    check(box.max());
+  }
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (std::size_t i = 0; i < count; ++i) keys[i] = cellKey(point(i), 1.0 / edge);
   std::vector<Segment> segments;
