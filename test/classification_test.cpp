@@ -113,7 +113,8 @@ TEST(Classifier, OtherObjectsNearlyAsNearVoteWithLessWeight) {
   const Classification nearest = classify(1), some = classify(1.5), all = classify(10);
   EXPECT_EQ(nearest.counts.votes, nearest.counts.descriptors);
   EXPECT_GT(some.counts.votes, nearest.counts.votes);
-  EXPECT_EQ(all.counts.votes, 3 * all.counts.descriptors);  // one of each object
+  EXPECT_GT(all.counts.votes, some.counts.votes);
+  EXPECT_LE(all.counts.votes, 3 * all.counts.descriptors);  // one of each object
   for (const Classification* result : {&nearest, &some, &all}) EXPECT_EQ(result->object(), "cup");
   // the farther a codeword the less it weighs, so that the last ones change next to nothing
   ASSERT_EQ(all.candidates.size(), 3u);

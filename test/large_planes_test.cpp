@@ -42,7 +42,7 @@ TEST(LargePlanes, KeypointsOffThemStay) {
   const LargePlane table{{0, -1, 0}, -0.3f, 0.8f};
   Keypoints keypoints;
   keypoints.positions = {{0, 0.3f, 1}, {0, 0.2f, 1}, {0.1f, 0.305f, 1}, {0.2f, 0.3f, 1}};
-  keypoints.normals = {{0, -1, 0}, {0, -1, 0}, {0, -1, 0}, {0, 0, -1}};  // the last one stands on the table
+  keypoints.normals = {{0, -1, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}};  // the last one stands on the table
   keypoints.curvature = {1, 2, 3, 4};
   EXPECT_EQ(keypointsOffPlanes(keypoints, {table}, 0.5f).curvature, (std::vector<float>{2, 4}));
   EXPECT_EQ(keypointsOffPlanes(keypoints, {table}, 0.9f).size(), 4u);  // no larger than the objects

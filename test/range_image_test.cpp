@@ -58,7 +58,9 @@ TEST(RangeImage, DoesNotDependOnThreads) {
   for (std::size_t i = 0; i < one.cells().size(); ++i) {
     EXPECT_EQ(one.cells()[i].nearest, three.cells()[i].nearest);
     EXPECT_EQ(one.cells()[i].farthest, three.cells()[i].farthest);
-    if (!std::isnan(one.cells()[i].x)) EXPECT_EQ(one.cells()[i].position(), three.cells()[i].position());
+    EXPECT_EQ(std::isnan(one.cells()[i].x), std::isnan(three.cells()[i].x));
+    if (std::isnan(one.cells()[i].x)) continue;
+    EXPECT_EQ(one.cells()[i].position(), three.cells()[i].position());
   }
 }
 

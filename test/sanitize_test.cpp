@@ -75,7 +75,9 @@ TEST(Sanitize, CountsWhatItTakesAwayAndKeepsTheOrder) {
 
 TEST(Sanitize, DoesNotDependOnThreads) {
   sks::Cloud cloud = sks::test::randomCloud(2000, 1, 3);
-  for (std::size_t i = 0; i < 500; ++i) append(cloud, cloud.points[7 * i % 300]);  // some of them twice
+  cloud.colors.clear();
+  for (std::size_t i = 0; i < 500; ++i) cloud.points.push_back(cloud.points[7 * i % 300]);  // some of them twice
+  cloud.width = 2500;
   for (std::size_t i = 0; i < 2000; i += 11) cloud.points[i].setConstant(not_a_number);
   sks::SanitizeReport report, other;
   const sks::Cloud kept = sks::sanitize(cloud, {}, &report, 1);

@@ -140,7 +140,8 @@ float planeExtentAt(const std::vector<LargePlane>& planes, const Eigen::Vector3f
 Keypoints keypointsOffPlanes(const Keypoints& keypoints, const std::vector<LargePlane>& planes, float extent) {
   Keypoints kept;
   for (std::size_t i = 0; i < keypoints.size(); ++i) {
-    if (planeExtentAt(planes, keypoints.positions[i], keypoints.normals[i]) > extent) continue;
+    const Eigen::Vector3f &position = keypoints.positions[i], &normal = keypoints.normals[i];  // of either sign
+    if (std::max(planeExtentAt(planes, position, normal), planeExtentAt(planes, position, -normal)) > extent) continue;
     kept.positions.push_back(keypoints.positions[i]);
     kept.normals.push_back(keypoints.normals[i]);
     kept.curvature.push_back(keypoints.curvature[i]);
