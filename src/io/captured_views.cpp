@@ -84,7 +84,13 @@ CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& 
   entry["cloud"] = object + "/" + name;
   entry["kind"] = "view";
   root["training"].push_back(entry);
-  storeFile(file_, root);
+  try {
+    storeFile(file_, root);
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove(added.file, ignored);  // no view without an entry
+    throw;
+  }
   return added;
 }
 
