@@ -74,8 +74,8 @@ CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& 
   makeFolder(folder);
   const std::string name = nextName(folder);
   Added added{(fs::path(folder) / name).string(),
-                    1 + std::size_t(std::count_if(before.training.begin(), before.training.end(),
-                                                  [&](const TrainingEntry& entry) { return entry.object == object; }))};
+              1 + std::size_t(std::count_if(before.training.begin(), before.training.end(),
+                                            [&](const TrainingEntry& entry) { return entry.object == object; }))};
   writeCloud(added.file, view);
 
   YAML::Node root = loadFile(file_), entry;
