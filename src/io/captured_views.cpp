@@ -74,8 +74,8 @@ CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& 
   makeFolder(folder);
   const std::string name = nextName(folder);
   Added added{(fs::path(folder) / name).string(),
-                    1 + std::size_t(std::count_if(before.training.begin(), before.training.end(),
-                                                  [&](const TrainingEntry& entry) { return entry.object == object; }))};
+              1 + std::size_t(std::count_if(before.training.begin(), before.training.end(),
+                                            [&](const TrainingEntry& entry) { return entry.object == object; }))};
   writeCloud(added.file, view);
 
   YAML::Node root = loadFile(file_), entry;
@@ -86,9 +86,9 @@ CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& 
   root["training"].push_back(entry);
   try {
     storeFile(file_, root);
-  } catch (const Error&) {
+  } catch (...) {
     std::error_code ignored;
-    fs::remove(added.file, ignored);  // what is not listed would never be found again
+    fs::remove(added.file, ignored);  // no view without an entry
     throw;
   }
   return added;

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include <ros/master.h>
+
 #include <sks_detector/error.hpp>
 
 #include "ros/parameter_tree.hpp"
@@ -42,6 +44,8 @@ ParameterReading readParameters(const ros::NodeHandle& private_handle) {
 }
 
 void ParameterMirror::write(const Configuration& configuration) {
+  // roscpp would wait for a master that is gone, for ever; what is not told now is told with the next change
+  if (!ros::master::check()) return;
   for (const sks::SettingInfo& info : parameterInfos()) {
     const std::string text = getParameter(configuration, info.key);
     const auto [entry, is_new] = written_.emplace(info.key, text);

@@ -28,7 +28,7 @@ class ParameterMirror {
 public:
   explicit ParameterMirror(const ros::NodeHandle& private_handle) : private_handle_(private_handle) {}
 
-  /// Writes what differs from what was written last; at first everything.
+  /// Writes what differs from what was written last, at first everything; nothing while there is no master.
   void write(const Configuration& configuration);
 
 private:
