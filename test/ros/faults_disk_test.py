@@ -65,6 +65,7 @@ class FaultyDiskTest(services_support.ServicesTest):
         self.expect_the_old_codebook()
         self.assertEqual(self.succeed("load_codebook", "disk/toys.sks").codebook, self.loaded)
         self.make_read_only(disk, "rw")
+        os.remove(path)  # there is no room for the old one and the new one
         self.succeed("train", dataset="synthetic.yaml", name="new", output="disk/toys.sks", overwrite=True)
 
     def test_captured_views_on_a_full_and_on_a_read_only_disk(self):
