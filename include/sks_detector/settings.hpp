@@ -201,7 +201,7 @@ struct VerificationSettings {
       "hypotheses are the Hough maxima that pass RANSAC, scored by their votes alone, as published");
     v(s.ambiguity, "ambiguity", Range{1, 10}, "",
       "each object's nearest codeword votes too, with less weight, where its distance is within this factor of the "
-      "nearest of all; 1: only the nearest, as published. Needs candidates above 0");
+      "nearest of all; 1: only the nearest, as published. In scenes it needs candidates above 0");
     v(s.skip_planes, "skip_planes",
       "keypoints on planes that are larger than every object (tables, walls) are not described: what lies there "
       "confirms no pose. Needs candidates above 0");
