@@ -68,7 +68,7 @@ void rowNormalsImpl(const PositionImage& image, std::size_t row, std::size_t col
     for (int down = -int(reach); down <= int(reach); ++down) {
       const int half = int(std::sqrt(reach * reach - float(down * down)));
       const std::size_t middle = std::size_t(std::ptrdiff_t(here) + down * std::ptrdiff_t(image.stride));
-#pragma GCC unroll 4
+      HWY_UNROLL(4)
       for (std::size_t i = middle - std::size_t(half); i <= middle + std::size_t(half); ++i) {
         sums.add(hn::LoadU(d, &image.x[i]), hn::LoadU(d, &image.y[i]), hn::LoadU(d, &image.z[i]));
       }
