@@ -142,8 +142,8 @@ Keypoints keypointsOffPlanes(const Keypoints& keypoints, const std::vector<Large
   for (std::size_t i = 0; i < keypoints.size(); ++i) {
     const Eigen::Vector3f &position = keypoints.positions[i], &normal = keypoints.normals[i];  // of either sign
     if (std::max(planeExtentAt(planes, position, normal), planeExtentAt(planes, position, -normal)) > extent) continue;
-    kept.positions.push_back(keypoints.positions[i]);
-    kept.normals.push_back(keypoints.normals[i]);
+    kept.positions.push_back(position);
+    kept.normals.push_back(normal);
     kept.curvature.push_back(keypoints.curvature[i]);
   }
   return kept;

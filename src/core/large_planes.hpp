@@ -27,7 +27,8 @@ std::vector<LargePlane> findLargePlanes(const Surface& scene, int threads = 1);
 /// The largest extent of those planes that the point belongs to; 0 if it lies on none [m].
 float planeExtentAt(const std::vector<LargePlane>& planes, const Eigen::Vector3f& point, const Eigen::Vector3f& normal);
 
-/// The measured keypoints that do not lie on planes of a larger extent than this [m]. Their normals may have either sign.
+/// The measured keypoints that do not lie on planes of a larger extent than this [m]. Their normals may have either
+/// sign.
 Keypoints keypointsOffPlanes(const Keypoints& keypoints, const std::vector<LargePlane>& planes, float extent);
 
 }  // namespace sks
