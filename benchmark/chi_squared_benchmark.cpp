@@ -72,7 +72,7 @@ void chiSquaredKernel(benchmark::State& state) {
         }
         benchmark::DoNotOptimize(sum);
       },
-      0.5);
+      0.5, 41);
   state.SetLabel("ratio is the share of the core's peak");
   state.counters["terms_per_ns"] = double(repetitions * rows * bins) / (1e6 * state.counters["ours_ms"]);
 }

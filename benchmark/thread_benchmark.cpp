@@ -21,7 +21,7 @@ struct Stages {
 
   void run(Stage stage, int count) {
     const bool all = stage == Stage::all;
-    if (all || stage == Stage::sanitize) cloud = sanitize(input, settings.sanitize);
+    if (all || stage == Stage::sanitize) cloud = sanitize(input, settings.sanitize, nullptr, count);
     if (all || stage == Stage::surface) surface = makeSurface(cloud, 1.01 * settings.surface.normal_radius, count);
     if (all || stage == Stage::normals) estimateNormals(surface, settings.surface, Orientation::sensor, count);
     if (all || stage == Stage::keypoints) grid = detectKeypoints(surface, settings.keypoints, count);

@@ -7,10 +7,16 @@
 #include <gtest/gtest.h>
 
 #include <sks_detector/descriptors.hpp>
+#include <sks_detector/matching.hpp>
+#include <sks_detector/refinement.hpp>
 #include <sks_detector/sanitize.hpp>
 
 #include "core/image_normals.hpp"
+#include "core/pose_evidence.hpp"
+#include "core/projective_refinement.hpp"
+#include "core/vote_density.hpp"
 #include "synthetic.hpp"
+#include "training_samples.hpp"
 
 namespace {
 
@@ -71,4 +77,45 @@ TEST(Allocations, DescriptorsNeedThoseOfTheirResultOnly) {
     EXPECT_EQ(allocationsOf([&] { sks::computeDescriptors(surface, keypoints, sks::DescriptorType::shot, {}, 1); }), 4u)
         << keypoints.size();
   }
+}
+
+TEST(Allocations, MatchingNeedsThatOfItsResultOnly) {
+  const sks::Surface surface = sks::prepareSurface(objectImage(), {}, sks::Orientation::sensor, 1);
+  const auto describe = [&](double grid_size) {
+    return sks::computeDescriptors(surface, sks::gridKeypoints(surface, grid_size), sks::DescriptorType::shot, {}, 1);
+  };
+  const sks::DescriptorMatrix words = describe(0.005).values;
+  ASSERT_GT(words.rows(), 500u);
+  for (const sks::SearchKind search : {sks::SearchKind::exact, sks::SearchKind::approximate}) {
+    const sks::Matcher matcher(words, search);
+    for (const double grid_size : {0.01, 0.03}) {
+      const sks::DescriptorMatrix queries = describe(grid_size).values;
+      EXPECT_EQ(allocationsOf([&] { EXPECT_EQ(matcher.match(queries, 1).size(), queries.rows()); }), 1u);
+    }
+  }
+}
+
+TEST(Allocations, PosesNeedThoseOfTheirConfirmingPointsOnly) {
+  const sks::Settings settings;
+  const sks::Cloud cloud = objectImage();
+  const sks::Surface surface = sks::prepareSurface(cloud, settings.surface, sks::Orientation::sensor, 1);
+  const sks::SceneView scene(surface, settings);
+  const sks::Codebook codebook = sks::train({sks::test::sampleOf("thing", cloud)}, settings, "synthetic");
+  const sks::TrainingView& view = codebook.views.at(0);
+  const sks::Distinctiveness telling(view);
+  const Eigen::Isometry3d near_truth(Eigen::Translation3d(0.004, -0.003, 0.002));
+  EXPECT_EQ(allocationsOf([&] { EXPECT_GT(sks::glance(view, telling, scene, near_truth).points, 20); }), 0u);
+  EXPECT_EQ(allocationsOf([&] { sks::refineAlongRays(view, scene, settings.refinement, near_truth); }), 0u);
+  EXPECT_EQ(allocationsOf([&] {
+              sks::refinePose(view.surface_points, view.surface_normals, surface, settings.refinement, near_truth);
+            }),
+            0u);
+  EXPECT_EQ(allocationsOf([&] {
+              const auto evidence = sks::examinePose(view, telling, scene, settings, near_truth);
+              EXPECT_GT(evidence.partners.size(), 100u);
+            }),
+            1u);
+  const std::vector<sks::Vote> votes(20);
+  const sks::VoteDensity density(votes, 0.03);
+  EXPECT_EQ(allocationsOf([&] { EXPECT_EQ(density.count({0, 0, 0}) + 0 * density.at({0, 0, 0}), 20); }), 0u);
 }

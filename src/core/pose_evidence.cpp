@@ -114,7 +114,8 @@ PoseEvidence examinePose(const TrainingView& view, const Distinctiveness& tellin
   const bool compares_color = scene.comparesColor(view);
   const std::vector<float>& weights = compares_color ? telling.shape_and_color : telling.shape;
   PoseEvidence evidence;
-  std::vector<PointGrid::Run> runs;
+  evidence.partners.reserve(view.surface_points.size() / stride + 1);
+  thread_local std::vector<PointGrid::Run> runs;  // kept from pose to pose
   forEachFacing(view, scene.surface, T_scene_model, stride, [&](std::size_t i, const Placed& placed) {
     const double weighted = area * weights[i];
     evidence.facing += area;

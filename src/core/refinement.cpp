@@ -16,12 +16,11 @@ struct PointPair {
 };
 
 /// Pairs of the model's points that face the sensor with their nearest scene points.
-std::vector<PointPair> findPairs(const std::vector<Eigen::Vector3f>& points,
-                                 const std::vector<Eigen::Vector3f>& normals, const Surface& scene, std::size_t stride,
-                                 float distance, const Eigen::Isometry3d& T_scene_model,
-                                 std::vector<PointGrid::Run>& runs) {
+void findPairs(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
+               const Surface& scene, std::size_t stride, float distance, const Eigen::Isometry3d& T_scene_model,
+               std::vector<PointGrid::Run>& runs, std::vector<PointPair>& pairs) {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
-  std::vector<PointPair> pairs;
+  pairs.clear();
   for (std::size_t i = 0; i < points.size(); i += stride) {
     const Eigen::Vector3f p = T * points[i], n = T.linear() * normals[i];
     if (n.dot(scene.sensor_origin - p) <= 0) continue;
@@ -36,7 +35,6 @@ std::vector<PointPair> findPairs(const std::vector<Eigen::Vector3f>& points,
     if (!std::isfinite(nearest) || !(n.dot(scene.normal(partner)) > normal_agreement)) continue;
     pairs.push_back({p.cast<double>(), scene.point(partner).cast<double>(), scene.normal(partner).cast<double>()});
   }
-  return pairs;
 }
 
 }  // namespace
@@ -46,10 +44,11 @@ Eigen::Isometry3d refinePose(const std::vector<Eigen::Vector3f>& points, const s
                              const Eigen::Isometry3d& T_scene_model) {
   Eigen::Isometry3d refined = T_scene_model;
   const std::size_t stride = points.size() / std::size_t(settings.max_points) + 1;
-  std::vector<PointGrid::Run> runs;
+  thread_local std::vector<PointGrid::Run> runs;  // kept from pose to pose
+  thread_local std::vector<PointPair> pairs;
   for (int i = 0; i < settings.iterations; ++i) {
     const double distance = pairDistance(settings, i);
-    const auto pairs = findPairs(points, normals, scene, stride, float(distance), refined, runs);
+    findPairs(points, normals, scene, stride, float(distance), refined, runs, pairs);
     if (pairs.size() < fewest_pairs) return i == 0 ? T_scene_model : refined;
     Eigen::Vector3d center = Eigen::Vector3d::Zero();
     for (const PointPair& pair : pairs) center += pair.model / double(pairs.size());

@@ -21,8 +21,7 @@ public:
   double at(const Eigen::Vector3f& place) const {
     double density = 0;
     const float factor = -0.5f / (bandwidth_ * bandwidth_);
-    std::vector<PointGrid::Run> runs;
-    grid_.forEachNeighbor(place, reach * bandwidth_, runs,
+    grid_.forEachNeighbor(place, reach * bandwidth_, runs(),
                           [&](std::uint32_t j, float squared) { density += weights_[j] * std::exp(factor * squared); });
     return density;
   }
@@ -30,13 +29,17 @@ public:
   /// Votes within the bandwidth of a place, whatever they weigh.
   std::uint32_t count(const Eigen::Vector3f& place) const {
     std::uint32_t votes = 0;
-    std::vector<PointGrid::Run> runs;
-    grid_.forEachNeighbor(place, bandwidth_, runs, [&](std::uint32_t, float) { ++votes; });
+    grid_.forEachNeighbor(place, bandwidth_, runs(), [&](std::uint32_t, float) { ++votes; });
     return votes;
   }
 
 private:
   static constexpr float reach = 3;
+
+  static std::vector<PointGrid::Run>& runs() {
+    thread_local std::vector<PointGrid::Run> kept;  // from place to place
+    return kept;
+  }
 
   static std::vector<Eigen::Vector3f> positionsOf(const std::vector<Vote>& votes) {
     std::vector<Eigen::Vector3f> positions;
