@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 
 #include "core/bound_cascade.hpp"
+#include "core/chi_squared.hpp"
 #include "error_of.hpp"
 #include "histograms.hpp"
 
@@ -52,6 +53,20 @@ TEST(ChiSquared, EqualsTheFormula) {
     const Rows rows = histograms(2, size, 5);
     EXPECT_DOUBLE_EQ(sks::chiSquared(rows[0].data(), rows[1].data(), size), plainChiSquared(rows[0], rows[1]));
     EXPECT_EQ(sks::chiSquared(rows[0].data(), rows[0].data(), size), 0);
+  }
+}
+
+TEST(ChiSquared, SinglePrecisionComesNearWhateverTheSize) {
+  for (const std::size_t size : {1, 7, 8, 16, 31, 33, 352, 1344}) {
+    const Rows rows = histograms(3, size, 3);
+    const float *query = rows[0].data(), *first = rows[1].data(), *second = rows[2].data();
+    float both[2];
+    sks::chiSquaredOfTwo(query, first, second, size, both);
+    for (const int i : {1, 2}) {
+      const double exact = plainChiSquared(rows[0], rows[i]);
+      EXPECT_NEAR(both[i - 1], exact, 1e-5 * exact) << size;
+      EXPECT_NEAR(sks::chiSquaredFast(query, rows[i].data(), size), exact, 1e-5 * exact) << size;
+    }
   }
 }
 

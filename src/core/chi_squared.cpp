@@ -63,6 +63,16 @@ std::size_t selectUpToImpl(float limit, const float* values, std::size_t count, 
   return selected;
 }
 
+/// Terms of the bins from `begin` on, one at a time.
+HWY_INLINE float sumOfRest(const float* a, const float* b, std::size_t begin, std::size_t size) {
+  float total = 0;
+  for (std::size_t i = begin; i < size; ++i) {
+    const float difference = a[i] - b[i], both = a[i] + b[i];
+    if (both > 0) total += difference * difference / both;
+  }
+  return total;
+}
+
 float chiSquaredFastImpl(const float* a, const float* b, std::size_t size) {
   const hn::ScalableTag<float> d;
   const std::size_t lanes = hn::Lanes(d);
@@ -76,12 +86,25 @@ float chiSquaredFastImpl(const float* a, const float* b, std::size_t size) {
     sum3 = hn::Add(sum3, at(i + 3 * lanes));
   }
   for (; i + lanes <= size; i += lanes) sum0 = hn::Add(sum0, at(i));
-  float total = hn::GetLane(hn::SumOfLanes(d, hn::Add(hn::Add(sum0, sum1), hn::Add(sum2, sum3))));
-  for (; i < size; ++i) {
-    const float difference = a[i] - b[i], both = a[i] + b[i];
-    if (both > 0) total += difference * difference / both;
+  const auto sum = hn::Add(hn::Add(sum0, sum1), hn::Add(sum2, sum3));
+  return hn::GetLane(hn::SumOfLanes(d, sum)) + sumOfRest(a, b, i, size);
+}
+
+void chiSquaredOfTwoImpl(const float* query, const float* first, const float* second, std::size_t size,
+                         float* distances) {
+  const hn::ScalableTag<float> d;
+  const std::size_t lanes = hn::Lanes(d);
+  auto sum0 = hn::Zero(d), sum1 = sum0, sum2 = sum0, sum3 = sum0;
+  std::size_t i = 0;
+  for (; i + 2 * lanes <= size; i += 2 * lanes) {
+    const auto q0 = hn::LoadU(d, query + i), q1 = hn::LoadU(d, query + i + lanes);
+    sum0 = hn::Add(sum0, term(d, q0, hn::LoadU(d, first + i)));
+    sum1 = hn::Add(sum1, term(d, q0, hn::LoadU(d, second + i)));
+    sum2 = hn::Add(sum2, term(d, q1, hn::LoadU(d, first + i + lanes)));
+    sum3 = hn::Add(sum3, term(d, q1, hn::LoadU(d, second + i + lanes)));
   }
-  return total;
+  distances[0] = hn::GetLane(hn::SumOfLanes(d, hn::Add(sum0, sum2))) + sumOfRest(query, first, i, size);
+  distances[1] = hn::GetLane(hn::SumOfLanes(d, hn::Add(sum1, sum3))) + sumOfRest(query, second, i, size);
 }
 
 void chiSquaredRowsImpl(const float* query, std::size_t bins, const std::uint16_t* table, const std::uint32_t* rows,
@@ -126,6 +149,7 @@ namespace sks {
 HWY_EXPORT(indexOfSmallestImpl);
 HWY_EXPORT(selectUpToImpl);
 HWY_EXPORT(chiSquaredFastImpl);
+HWY_EXPORT(chiSquaredOfTwoImpl);
 HWY_EXPORT(chiSquaredRowsImpl);
 HWY_EXPORT(mergingCostImpl);
 
@@ -139,6 +163,10 @@ std::size_t selectUpTo(float limit, const float* values, std::size_t count, std:
 
 float chiSquaredFast(const float* a, const float* b, std::size_t size) {
   return HWY_DYNAMIC_DISPATCH(chiSquaredFastImpl)(a, b, size);
+}
+
+void chiSquaredOfTwo(const float* query, const float* first, const float* second, std::size_t size, float* distances) {
+  HWY_DYNAMIC_DISPATCH(chiSquaredOfTwoImpl)(query, first, second, size, distances);
 }
 
 void chiSquaredRows(const float* query, std::size_t bins, const std::uint16_t* table, const std::uint32_t* rows,

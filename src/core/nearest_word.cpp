@@ -16,9 +16,9 @@ namespace {
 constexpr float rounding = 1e-4f;              // above the relative error of single precision distances
 constexpr std::size_t tile_blocks = 16;        // whose codes stay in the cache while a batch of queries passes
 constexpr std::size_t words_of_cluster = 128;  // about
-constexpr std::size_t least_visited = 32, most_visited = 80;  // clusters, about; an eighth of them in between
+constexpr std::size_t least_visited = 24, most_visited = 80;  // clusters, about; an eighth of them in between
 constexpr std::size_t least_kept = 160, most_kept = 256;      // of the words of clusters; a 256th of all in between
-constexpr std::size_t centers_sampled = 16;                   // every one of this many
+constexpr std::size_t centers_sampled = 8;                    // every one of this many
 
 constexpr float largest_bin = 1e4f;  // descriptors have the length 1; sums over far larger bins would not be finite
 
@@ -98,13 +98,15 @@ NearestWord::NearestWord(DescriptorMatrix words, bool exact, const std::vector<s
   }
 }
 
-/// Distance to the word, which may be the best one so far.
-float NearestWord::measure(Search& search, std::uint32_t slot) const {
-  const float distance = chiSquaredFast(search.histogram, words_.row(clusters_.order()[slot]), words_.cols());
+const float* NearestWord::wordAt(std::uint32_t slot) const {
+  return words_.row(clusters_.order()[slot]);
+}
+
+/// A distance that was measured may be the best one so far.
+void NearestWord::remember(Search& search, std::uint32_t slot, float distance) const {
   float& of_group = search.best_of_group[groupOf(slot)];
   of_group = std::min(of_group, distance);
   search.best = std::min(search.best, distance);
-  return distance;
 }
 
 /// The word of the lowest bound is likely to be near: its distance rules most others out.
@@ -112,7 +114,7 @@ void NearestWord::measureLikely(Search& search, std::uint32_t slot, float bound)
   float& lowest = search.lowest_of_group[groupOf(slot)];
   if (!(bound < lowest)) return;
   lowest = bound;
-  measure(search, slot);
+  remember(search, slot, chiSquaredFast(search.histogram, wordAt(slot), words_.cols()));
 }
 
 /// The largest distance of a word of the tile that may be wanted.
@@ -137,6 +139,35 @@ void NearestWord::dropHopeless(Search& search, HighestWithin&& highest_within) c
   }
   search.slots.resize(kept);
   search.bounds.resize(kept);
+}
+
+/// Distances in place of bounds, two at a time; `nothing` for words that those before them rule out.
+/// @param highest_within the highest bound of a word within a distance
+template <typename HighestWithin>
+void NearestWord::measurePromising(Search& search, HighestWithin&& highest_within) const {
+  constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+  const std::size_t bins = words_.cols(), count = search.slots.size();
+  const auto keep = [&](std::size_t i, float distance) {
+    search.bounds[i] = distance;
+    remember(search, search.slots[i], distance);
+  };
+  std::size_t waiting = none;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint32_t slot = search.slots[i];
+    if (i + 1 < count) prefetch(wordAt(search.slots[i + 1]), bins);
+    if (search.bounds[i] > highest_within(limitOf(search, groupOf(slot)))) {
+      search.bounds[i] = nothing;
+    } else if (waiting == none) {
+      waiting = i;
+    } else {
+      float distances[2];
+      chiSquaredOfTwo(search.histogram, wordAt(search.slots[waiting]), wordAt(slot), bins, distances);
+      keep(waiting, distances[0]);
+      keep(i, distances[1]);
+      waiting = none;
+    }
+  }
+  if (waiting != none) keep(waiting, chiSquaredFast(search.histogram, wordAt(search.slots[waiting]), bins));
 }
 
 void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* const* searches, std::size_t count,
@@ -171,12 +202,7 @@ void NearestWord::finish(Search& search, Match* matches, Workspace& work) const 
   search.lowest_of_group.assign(groups_, nothing);
   for (std::size_t i = 0; i < search.slots.size(); ++i) measureLikely(search, search.slots[i], search.bounds[i]);
   dropHopeless(search, highestWithin);
-  for (std::size_t i = 0; i < search.slots.size(); ++i) {
-    const std::uint32_t slot = search.slots[i];
-    if (i + 1 < search.slots.size()) prefetch(words_.row(clusters_.order()[search.slots[i + 1]]), words_.cols());
-    const bool hopeless = search.bounds[i] > highestWithin(limitOf(search, groupOf(slot)));
-    search.bounds[i] = hopeless ? nothing : measure(search, slot);
-  }
+  measurePromising(search, highestWithin);
   // Between near ties double precision decides.
   dropHopeless(search, [](float distance) { return distance; });
   for (std::size_t group = 0; group < groups_; ++group) matches[group] = {0, 0, nothing};
@@ -294,7 +320,7 @@ std::vector<Match> NearestWord::find(const DescriptorMatrix& queries, float fact
   std::vector<Match> matches(queries.rows() * groups_);
   std::size_t batch = 32;
   if (!exact()) {  // the more at once, the more often a cluster is reused
-    batch = std::max(batch, (queries.rows() + std::size_t(threads) - 1) / std::size_t(threads));
+    batch = std::max(batch, (queries.rows() + 2 * std::size_t(threads) - 1) / (2 * std::size_t(threads)));
   }
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::size_t first = 0; first < queries.rows(); first += batch) {

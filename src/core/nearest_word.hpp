@@ -61,11 +61,14 @@ public:
 private:
   bool exact() const { return clusters_.size() == 1; }
   std::uint32_t groupOf(std::uint32_t slot) const { return groups_ == 1 ? 0 : group_of_slot_[slot]; }
-  float measure(Search& search, std::uint32_t slot) const;
+  const float* wordAt(std::uint32_t slot) const;
+  void remember(Search& search, std::uint32_t slot, float distance) const;
   void measureLikely(Search& search, std::uint32_t slot, float bound) const;
   float limitOfTile(const Search& search, std::size_t first_block) const;
   template <typename HighestWithin>
   void dropHopeless(Search& search, HighestWithin&& highest_within) const;
+  template <typename HighestWithin>
+  void measurePromising(Search& search, HighestWithin&& highest_within) const;
   void find(const DescriptorMatrix& queries, std::size_t first, std::size_t count, float factor, Match* matches,
             Workspace& work) const;
   void start(Search& search, const float* histogram, float factor, Workspace& work) const;
