@@ -74,7 +74,7 @@ void rowNormalsImpl(const PositionImage& image, std::size_t row, std::size_t col
       }
     }
     sums.store(moments);
-    solve(moments, hn::Lanes(d), fits);
+    solve(moments, fits);
     for (std::size_t i = 0; i < hn::Lanes(d); ++i) {
       if (!std::isnan(image.z[here + i])) *normals++ = normalOf(moments, fits, i, min_neighbors);
     }

@@ -66,7 +66,7 @@ void fitPlanesAtPointsImpl(const PointGrid& grid, std::size_t begin, std::size_t
       slide(grid.x.data(), grid.x[first] - reach, grid.x[next - 1] + reach, rows[r], windows[r]);
     }
     sumMoments(grid, first, radius, windows, moments);
-    solve(moments, next - first, fits);
+    solve(moments, fits);
     for (std::size_t i = 0; i < next - first; ++i) {
       const Eigen::Vector3f normal = normalOf(moments, fits, i, min_neighbors);
       normals.x[first + i] = normal.x();

@@ -78,29 +78,46 @@ private:
   V xx_ = sx_, xy_ = sx_, xz_ = sx_, yy_ = sx_, yz_ = sx_, zz_ = sx_;
 };
 
-/// Fits of `count` points from their moments, in double precision.
-inline void solve(const Moments& moments, std::size_t count, Fits& fits) {
-  const hn::CappedTag<double, max_lanes> d;
+/// Covariances of some points from their moments, in double precision, divided by their traces.
+template <class D>
+HWY_INLINE SymmetricMatrices<hn::Vec<D>> covariances(D d, const Moments& moments, std::size_t first) {
+  const hn::Rebind<float, D> df;
+  const auto load = [&](int k) { return hn::PromoteTo(d, hn::LoadU(df, &moments.sums[k][first])); };
+  const auto share = hn::Div(hn::Set(d, 1.0), load(Moments::count));
+  const auto mx = hn::Mul(load(Moments::x), share), my = hn::Mul(load(Moments::y), share),
+             mz = hn::Mul(load(Moments::z), share);
+  const auto covariance = [&](int k, auto a, auto b) { return hn::MulSub(load(k), share, hn::Mul(a, b)); };
+  SymmetricMatrices<hn::Vec<D>> m;
+  m.xx = covariance(Moments::xx, mx, mx);
+  m.xy = covariance(Moments::xy, mx, my);
+  m.xz = covariance(Moments::xz, mx, mz);
+  m.yy = covariance(Moments::yy, my, my);
+  m.yz = covariance(Moments::yz, my, mz);
+  m.zz = covariance(Moments::zz, mz, mz);
+  divideByTrace(d, m);
+  return m;
+}
+
+/// Fits of the points of a vector from their moments.
+inline void solve(const Moments& moments, Fits& fits) {
+  const hn::CappedTag<double, max_lanes / 2> d;
   const hn::Rebind<float, decltype(d)> df;
-  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto load = [&](int k) { return hn::PromoteTo(d, hn::LoadU(df, &moments.sums[k][i])); };
-    const auto share = hn::Div(hn::Set(d, 1.0), load(Moments::count));
-    const auto mx = hn::Mul(load(Moments::x), share), my = hn::Mul(load(Moments::y), share),
-               mz = hn::Mul(load(Moments::z), share);
-    const auto covariance = [&](int k, auto a, auto b) { return hn::MulSub(load(k), share, hn::Mul(a, b)); };
-    SymmetricMatrices<decltype(hn::Zero(d))> m;
-    m.xx = covariance(Moments::xx, mx, mx);
-    m.xy = covariance(Moments::xy, mx, my);
-    m.xz = covariance(Moments::xz, mx, mz);
-    m.yy = covariance(Moments::yy, my, my);
-    m.yz = covariance(Moments::yz, my, mz);
-    m.zz = covariance(Moments::zz, mz, mz);
-    auto x = hn::Zero(d), y = x, z = x;
-    const auto certainty = smallestEigenvectors(d, m, x, y, z);
+  using V = hn::Vec<decltype(d)>;
+  const auto store = [&](const SymmetricMatrices<V>& m, V eigenvalue, std::size_t i) {
+    V x = hn::Zero(d), y = x, z = x;
+    const V certainty = eigenvectors(d, m, eigenvalue, x, y, z);
     hn::StoreU(hn::DemoteTo(df, x), df, &fits.x[i]);
     hn::StoreU(hn::DemoteTo(df, y), df, &fits.y[i]);
     hn::StoreU(hn::DemoteTo(df, z), df, &fits.z[i]);
     hn::StoreU(hn::DemoteTo(df, certainty), df, &fits.certainty[i]);
+  };
+  const std::size_t half = hn::Lanes(d);
+  for (std::size_t i = 0; i < hn::Lanes(Points()); i += 2 * half) {
+    const auto m0 = covariances(d, moments, i), m1 = covariances(d, moments, i + half);
+    V root0, root1;
+    smallestEigenvalues(d, m0, m1, root0, root1);
+    store(m0, root0, i);
+    store(m1, root1, i + half);
   }
 }
 

@@ -21,37 +21,65 @@ struct SymmetricMatrices {
   V xx, xy, xz, yy, yz, zz;
 };
 
-/// Smallest root of the characteristic polynomial of matrices with trace 1, no eigenvalue negative.
+/// Characteristic polynomials of matrices with trace 1, no eigenvalue negative: those of sums of squares.
 template <class D, class V>
-HWY_INLINE V smallestEigenvalue(D d, const SymmetricMatrices<V>& m) {
-  const V minors = hn::Sub(hn::MulAdd(m.xx, m.yy, hn::MulAdd(m.xx, m.zz, hn::Mul(m.yy, m.zz))),
-                           hn::MulAdd(m.xy, m.xy, hn::MulAdd(m.xz, m.xz, hn::Mul(m.yz, m.yz))));
-  const V yz = hn::Sub(hn::Mul(m.yy, m.zz), hn::Mul(m.yz, m.yz));
-  const V xz = hn::Sub(hn::Mul(m.xy, m.zz), hn::Mul(m.yz, m.xz));
-  const V xy = hn::Sub(hn::Mul(m.xy, m.yz), hn::Mul(m.yy, m.xz));
-  const V determinant = hn::MulAdd(m.xz, xy, hn::NegMulAdd(m.xy, xz, hn::Mul(m.xx, yz)));
-
-  // Newton's method climbs from 0 to the smallest root; a flat patch needs few steps.
-  const V one = hn::Set(d, 1.0), two = hn::Set(d, 2.0), three = hn::Set(d, 3.0), tolerance = hn::Set(d, 1e-14);
-  V root = hn::Zero(d);
-  for (int i = 0; i < 30; ++i) {
-    const V slope = hn::MulAdd(hn::MulSub(three, root, two), root, minors);
-    const V value = hn::MulSub(hn::MulAdd(hn::Sub(root, one), root, minors), root, determinant);
-    const V step = hn::IfThenElseZero(hn::Gt(slope, hn::Zero(d)), hn::Div(value, slope));
-    root = hn::Sub(root, step);
-    if (hn::AllTrue(d, hn::Le(hn::Abs(step), tolerance))) break;
+class Characteristic {
+public:
+  HWY_INLINE Characteristic(D d, const SymmetricMatrices<V>& m) : d_(d) {
+    minors_ = hn::Sub(hn::MulAdd(m.xx, m.yy, hn::MulAdd(m.xx, m.zz, hn::Mul(m.yy, m.zz))),
+                      hn::MulAdd(m.xy, m.xy, hn::MulAdd(m.xz, m.xz, hn::Mul(m.yz, m.yz))));
+    const V yz = hn::Sub(hn::Mul(m.yy, m.zz), hn::Mul(m.yz, m.yz));
+    const V xz = hn::Sub(hn::Mul(m.xy, m.zz), hn::Mul(m.yz, m.xz));
+    const V xy = hn::Sub(hn::Mul(m.xy, m.yz), hn::Mul(m.yy, m.xz));
+    determinant_ = hn::MulAdd(m.xz, xy, hn::NegMulAdd(m.xy, xz, hn::Mul(m.xx, yz)));
   }
-  return root;
+
+  /// A step of Newton's method, which climbs from 0 to the smallest root; 0 where the last one was within the
+  /// tolerance.
+  HWY_INLINE V step(V root, V last) const {
+    const V slope = hn::MulAdd(hn::MulSub(hn::Set(d_, 3.0), root, hn::Set(d_, 2.0)), root, minors_);
+    const V value = hn::MulSub(hn::MulAdd(hn::Sub(root, hn::Set(d_, 1.0)), root, minors_), root, determinant_);
+    const auto moving = hn::And(hn::Gt(slope, hn::Zero(d_)), hn::Gt(hn::Abs(last), tolerance()));
+    return hn::IfThenElseZero(moving, hn::Div(value, slope));
+  }
+
+  HWY_INLINE bool converged(V step) const { return hn::AllFalse(d_, hn::Gt(hn::Abs(step), tolerance())); }
+
+private:
+  HWY_INLINE V tolerance() const { return hn::Set(d_, 1e-9); }  // of steps: what is left is about its square
+
+  D d_;
+  V minors_, determinant_;
+};
+
+/// Smallest eigenvalues of two vectors of matrices: while one waits for a division, the other goes on. A flat patch
+/// needs few steps.
+template <class D, class V>
+HWY_INLINE void smallestEigenvalues(D d, const SymmetricMatrices<V>& m0, const SymmetricMatrices<V>& m1, V& root0,
+                                    V& root1) {
+  const Characteristic<D, V> p0(d, m0), p1(d, m1);
+  V step0 = hn::Set(d, 1.0), step1 = step0;
+  root0 = root1 = hn::Zero(d);
+  for (int i = 0; i < 30; ++i) {
+    step0 = p0.step(root0, step0);
+    step1 = p1.step(root1, step1);
+    root0 = hn::Sub(root0, step0);
+    root1 = hn::Sub(root1, step1);
+    if (p0.converged(step0) && p1.converged(step1)) break;
+  }
 }
 
-/// Unit eigenvectors (x, y, z) of the smallest eigenvalues. @return how well each is determined: not at all (below
-/// 1e-12, or NaN) for points along a line, or in a ball
 template <class D, class V>
-HWY_INLINE V smallestEigenvectors(D d, SymmetricMatrices<V> m, V& x, V& y, V& z) {
+HWY_INLINE void divideByTrace(D d, SymmetricMatrices<V>& m) {
   const V scale = hn::Div(hn::Set(d, 1.0), hn::Add(m.xx, hn::Add(m.yy, m.zz)));
   for (V* entry : {&m.xx, &m.xy, &m.xz, &m.yy, &m.yz, &m.zz}) *entry = hn::Mul(*entry, scale);
-  const V root = smallestEigenvalue(d, m);
-  for (V* entry : {&m.xx, &m.yy, &m.zz}) *entry = hn::Sub(*entry, root);
+}
+
+/// Unit eigenvectors (x, y, z) to eigenvalues. @return how well each is determined: not at all (below 1e-12, or NaN)
+/// for points along a line, or in a ball
+template <class D, class V>
+HWY_INLINE V eigenvectors(D d, SymmetricMatrices<V> m, V eigenvalue, V& x, V& y, V& z) {
+  for (V* entry : {&m.xx, &m.yy, &m.zz}) *entry = hn::Sub(*entry, eigenvalue);
 
   // The shifted matrix has rank 2: its columns span the plane, and the longest of their products is the most exact.
   V longest = hn::Set(d, -1.0);
