@@ -1,28 +1,39 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sks_detector/point_grid.hpp>
 
+#include <algorithm>
 #include <limits>
-#include <numeric>
+#include <utility>
+
+#include <Eigen/Geometry>
 
 namespace sks {
 namespace {
 
 constexpr double max_rows = 4e6;  // 16 MB of row table, whatever the extent of the points
 
-PointGrid::Rows rowsAround(const std::vector<Eigen::Vector3f>& points, double cell) {
-  Eigen::Vector3f low = Eigen::Vector3f::Constant(std::numeric_limits<float>::max()), high = -low;
-  for (const auto& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
+Eigen::AlignedBox3f boundsOf(const std::vector<Eigen::Vector3f>& points, int threads) {
+  Eigen::AlignedBox3f bounds;
+#pragma omp parallel num_threads(threads)
+  {
+    Eigen::AlignedBox3f of_share;
+#pragma omp for schedule(static)
+    for (std::size_t i = 0; i < points.size(); ++i) of_share.extend(points[i]);
+#pragma omp critical
+    bounds.extend(of_share);
   }
-  if (points.empty()) low = high = Eigen::Vector3f::Zero();
-  const Eigen::Vector2d extent = (high - low).tail<2>().cast<double>();
+  if (points.empty()) bounds.extend(Eigen::Vector3f::Zero().eval());
+  return bounds;
+}
+
+PointGrid::Rows rowsIn(const Eigen::AlignedBox3f& bounds, double cell) {
+  const Eigen::Vector2d extent = bounds.sizes().tail<2>().cast<double>();
   while ((extent.x() / cell + 1) * (extent.y() / cell + 1) > max_rows) cell *= 2;
 
   PointGrid::Rows rows;
   rows.cell = float(cell);
-  rows.origin_y = low.y();
-  rows.origin_z = low.z();
+  rows.origin_y = bounds.min().y();
+  rows.origin_z = bounds.min().z();
   rows.count_y = int(extent.x() / cell) + 1;
   rows.count_z = int(extent.y() / cell) + 1;
   return rows;
@@ -35,46 +46,53 @@ struct Entry {
   std::uint32_t row;
 };
 
-/// Turns the sizes that stand at [bucket + 1] into where each bucket begins.
-void accumulate(std::vector<std::uint32_t>& begin) {
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-}
-
-/// Points roughly by x: by buckets of equal width, in their order within each.
-std::vector<Entry> roughlyByX(const std::vector<Eigen::Vector3f>& points, const PointGrid::Rows& rows, int threads) {
-  constexpr std::uint32_t buckets = 4096;
-  const std::size_t n = points.size();
-  float low = std::numeric_limits<float>::max(), high = -low;
-  for (const auto& p : points) {
-    low = std::min(low, p.x());
-    high = std::max(high, p.x());
-  }
-  const float per_width = high > low ? float(buckets) / (high - low) : 0.0f;
-  const auto bucketOf = [&](float x) { return std::min(std::uint32_t((x - low) * per_width), buckets - 1); };
-
-  std::vector<Entry> entries(n), sorted(n);
+/// Entries by key, those of one key in their order, whatever the number of threads: each counts a share of them and
+/// puts it in its places. @param begin becomes the place of each key's first entry, and one past the last of all
+template <typename KeyOf>
+std::vector<Entry> sortedByKey(const std::vector<Entry>& entries, std::size_t keys, KeyOf&& key_of, int threads,
+                               std::vector<std::uint32_t>& begin) {
+  const std::size_t n = entries.size(), shares = std::clamp<std::size_t>(n / keys, 1, std::size_t(threads));
+  std::vector<std::uint32_t> next(shares * keys, 0);
+  const auto forEachOfShare = [&](std::size_t share, auto&& f) {
+    for (std::size_t i = n * share / shares; i < n * (share + 1) / shares; ++i) {
+      f(entries[i], next[share * keys + key_of(entries[i])]);
+    }
+  };
 #pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::size_t i = 0; i < n; ++i) {
-    entries[i] = {points[i].x(), std::uint32_t(i), rows.at(points[i].y(), points[i].z())};
+  for (std::size_t share = 0; share < shares; ++share) {
+    forEachOfShare(share, [](const Entry&, std::uint32_t& count) { ++count; });
   }
-  std::vector<std::uint32_t> next(buckets + 1, 0);
-  for (const Entry& entry : entries) ++next[bucketOf(entry.x) + 1];
-  accumulate(next);
-  for (const Entry& entry : entries) sorted[next[bucketOf(entry.x)]++] = entry;
+  begin.resize(keys + 1);
+  std::uint32_t place = 0;
+  for (std::size_t key = 0; key < keys; ++key) {
+    begin[key] = place;
+    for (std::size_t share = 0; share < shares; ++share) {
+      place += std::exchange(next[share * keys + key], place);
+    }
+  }
+  begin[keys] = place;
+  std::vector<Entry> sorted(n);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t share = 0; share < shares; ++share) {
+    forEachOfShare(share, [&](const Entry& entry, std::uint32_t& to) { sorted[to++] = entry; });
+  }
   return sorted;
 }
 
-/// Entries by row, those of a row in their order; fills in rows.begin.
-std::vector<Entry> groupByRow(const std::vector<Entry>& entries, PointGrid::Rows& rows) {
-  rows.begin.assign(std::size_t(rows.count_y) * rows.count_z + 1, 0);
-  for (const Entry& entry : entries) ++rows.begin[entry.row + 1];
-  accumulate(rows.begin);
-  // Each row's begin moves on as the row fills, to where the next row begins; then all move back by one row.
-  std::vector<Entry> grouped(entries.size());
-  for (const Entry& entry : entries) grouped[rows.begin[entry.row]++] = entry;
-  std::copy_backward(rows.begin.begin(), rows.begin.end() - 1, rows.begin.end());
-  rows.begin[0] = 0;
-  return grouped;
+/// Points roughly by x: by buckets of equal width, in their order within each.
+std::vector<Entry> roughlyByX(const std::vector<Eigen::Vector3f>& points, const Eigen::AlignedBox3f& bounds,
+                              const PointGrid::Rows& rows, int threads) {
+  constexpr std::uint32_t buckets = 4096;
+  const float low = bounds.min().x(), width = bounds.sizes().x();
+  const float per_width = width > 0 ? float(buckets) / width : 0.0f;
+  std::vector<Entry> entries(points.size());
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    entries[i] = {points[i].x(), std::uint32_t(i), rows.at(points[i].y(), points[i].z())};
+  }
+  std::vector<std::uint32_t> begin;
+  const auto bucketOf = [&](const Entry& e) { return std::min(std::uint32_t((e.x - low) * per_width), buckets - 1); };
+  return sortedByKey(entries, buckets, bucketOf, threads, begin);
 }
 
 /// Sorts by x; equal ones keep their order. Quick for entries that are nearly in order, as all are but where far
@@ -93,10 +111,13 @@ void sortByX(Entry* begin, Entry* end) {
 
 }  // namespace
 
-PointGrid::PointGrid(const std::vector<Eigen::Vector3f>& points, double cell, int threads)
-    : rows_(rowsAround(points, cell)) {
+PointGrid::PointGrid(const std::vector<Eigen::Vector3f>& points, double cell, int threads) {
   const std::size_t n = points.size();
-  std::vector<Entry> entries = groupByRow(roughlyByX(points, rows_, threads), rows_);
+  const Eigen::AlignedBox3f bounds = boundsOf(points, threads);
+  rows_ = rowsIn(bounds, cell);
+  std::vector<Entry> entries = sortedByKey(
+      roughlyByX(points, bounds, rows_, threads), std::size_t(rows_.count_y) * std::size_t(rows_.count_z),
+      [](const Entry& entry) { return entry.row; }, threads, rows_.begin);
   source.resize(n);
   for (auto* axis : {&x, &y, &z}) axis->resize(n + simd_padding);
   rows_.pivots.assign(n / Rows::pivot_spacing + 1 + simd_padding, std::numeric_limits<float>::infinity());

@@ -137,7 +137,7 @@ std::vector<std::uint32_t> distinctPoints(const Cloud& cloud, const std::vector<
       count = 0;
     };
     for (std::size_t i = 0; i < n; ++i) {
-      if ((hashes[i] & 0xffff) % shares != share) continue;
+      if (((hashes[i] & 0xffff) * shares) >> 16 != share) continue;
       seen.prefetch(hashes[i]);
       waiting[count++] = i;
       if (count == block) insert();
@@ -172,10 +172,11 @@ Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeRep
   Cloud kept;
   kept.sensor_origin = cloud.sensor_origin;
   kept.points.resize(distinct.size());
-  for (std::size_t i = 0; i < distinct.size(); ++i) kept.points[i] = cloud.points[distinct[i]];
-  if (cloud.hasColor()) {
-    kept.colors.resize(distinct.size());
-    for (std::size_t i = 0; i < distinct.size(); ++i) kept.colors[i] = cloud.colors[distinct[i]];
+  if (cloud.hasColor()) kept.colors.resize(distinct.size());
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t i = 0; i < distinct.size(); ++i) {
+    kept.points[i] = cloud.points[distinct[i]];
+    if (cloud.hasColor()) kept.colors[i] = cloud.colors[distinct[i]];
   }
   if (cloud.organized()) {
     kept.pixels = std::move(distinct);
