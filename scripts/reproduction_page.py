@@ -117,7 +117,7 @@ def keypoint_tables(runs):
                          number(keypoints['relative_time'], 4), number(PAPER_KEYPOINTS.get(name), 2)])
         text += f'\n### {label}: {result["pairs"]} pairs\n\n' + table(
             ['keypoints', 'of object', 'of scene', 'mean C_rk', 'median T_diff', 'relative time', "paper's"], rows)
-        text += f'\n![C_rk and T_diff of each pair, best first](reproduction_keypoints_{label}.png)\n'
+        text += f'\n![C_rk and T_diff of each pair, best first](evaluation_keypoints_{label}.png)\n'
     return text
 
 
@@ -156,16 +156,16 @@ def write(path, runs, pictures, threads):
     folder = os.path.dirname(os.path.abspath(path))
     by_command = {command: [run for run in runs if run[1].command == command]
                   for command in ('evaluate', 'classify', 'keypoints')}
-    text = ['# Reproduction\n\nWritten by `scripts/reproduce`, which runs all of it again:\n\n```\n'
+    text = ['# Figures of every method\n\nHow to evaluate, data set files and measures: [evaluate.md](evaluate.md). Written by `scripts/reproduce`, which runs all of it again:\n\n```\n'
             'scripts/reproduce --data $SKS_DATA [D.yaml ...]\n```\n\n'
             f'Machine: {machine(threads)} Times are wall-clock times: on a machine with other work they say little.\n'
             'Settings of the methods and how they were found: [baselines.md](baselines.md).\n'
             'The paper\'s data sets: RandomViews and Kinect of UniBo; its times are those of an i7-2760QM.\n']
     if by_command['evaluate']:
-        plot_detection(by_command['evaluate'], os.path.join(folder, 'reproduction_detection.svg'))
+        plot_detection(by_command['evaluate'], os.path.join(folder, 'evaluation_detection.svg'))
         text.append('## Detection\n\nF1 at each method\'s fixed threshold (0.5), `sks evaluate --dataset D --codebook B --method M '
                     '--set keypoints.discard=S`, B trained with the default settings:\n\n' + overview(by_command['evaluate']) +
-                    '\n![F1 over seconds per scene; squares: without selection](reproduction_detection.svg)\n' +
+                    '\n![F1 over seconds per scene; squares: without selection](evaluation_detection.svg)\n' +
                     detection_tables(by_command['evaluate']))
     if by_command['classify']:
         text.append('## Classification\n\n`sks classify --dataset D --codebook B --method M --set keypoints.discard=S`, B '
@@ -174,6 +174,6 @@ def write(path, runs, pictures, threads):
         text.append('## Keypoints\n\n`sks keypoints --dataset D --set threads=1`; times relative to ISS:\n' +
                     keypoint_tables(by_command['keypoints']))
         for label, picture in pictures:
-            shutil.copy(picture, os.path.join(folder, f'reproduction_keypoints_{label}.png'))
+            shutil.copy(picture, os.path.join(folder, f'evaluation_keypoints_{label}.png'))
     with open(path, 'w', encoding='utf-8') as file:
         file.write('\n'.join(text))

@@ -48,7 +48,7 @@ struct TestEntry {
   std::string path;    ///< where the cloud is
 };
 
-/// What a data set file describes (docs/evaluation.md); all lengths are in metres, whatever the file's units are.
+/// What a data set file describes (docs/evaluate.md); all lengths are in metres, whatever the file's units are.
 struct DataSet {
   std::string file;  ///< path it was read from
   std::string name;

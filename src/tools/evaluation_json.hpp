@@ -7,7 +7,7 @@
 
 namespace sks::tools {
 
-/// The result of `sks evaluate` (docs/evaluation.md). Undefined values are null. But for the keys `time_ms` and
+/// The result of `sks evaluate` (docs/evaluate.md). Undefined values are null. But for the keys `time_ms` and
 /// `peak_memory_mb`, the same detections give the same JSON, whatever the number of threads.
 nlohmann::json evaluationJson(const Evaluation& evaluation);
 
