@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #ifdef SKS_EXECUTABLE  // not where the command line is left out of the build
 
+#include <cstdio>
+#include <sstream>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -60,6 +63,44 @@ TEST_F(SimulateCommand, WhatIsTrainedFromMeshesIsFoundWithItsPose) {
   EXPECT_GE(result["true_positives"].get<int>(), 2);
   EXPECT_LT(result["pose"]["translation_error_m"]["median"].get<double>(), 0.005);
   EXPECT_LT(result["pose"]["rotation_error_deg"]["median"].get<double>(), 5);
+}
+
+TEST_F(SimulateCommand, DetectionsBecomeABopResultFile) {
+  const std::vector<std::string> meshes{"--mesh", "obj_000001=builtin:mug", "--mesh", "obj_000002=builtin:duck"};
+  std::vector<std::string> arguments{"simulate", "--output", folder_.path("a"), "--scenes", "1", "--objects", "2"};
+  arguments.insert(arguments.end(), meshes.begin(), meshes.end());
+  ASSERT_EQ(runSks(arguments).status, 0);
+  const std::string file = folder_.path("a/dataset.yaml"), results = folder_.path("results.csv");
+  std::string text = readTextFile(file);
+  const std::size_t name = text.find("scene000\"");
+  ASSERT_NE(name, std::string::npos);
+  test::writeFile(file, text.replace(name, 8, "000003/000007"));
+  const test::CommandRun run =
+      runSks({"evaluate", "--dataset", file, "--views", "20", "--bop-results", results, "--json", "-"});
+  ASSERT_EQ(run.status, 0) << run.errors;
+
+  std::istringstream rows(readTextFile(results));
+  std::string row;
+  std::getline(rows, row);
+  EXPECT_EQ(row, "scene_id,im_id,obj_id,score,R,t,time");
+  std::size_t count = 0, near = 0;
+  const Scene scene = loadDataSet(file).scenes.at(0);
+  for (; std::getline(rows, row); ++count) {
+    int object = 0;
+    double score = 0, R[9], t[3], seconds = 0;
+    ASSERT_EQ(std::sscanf(row.c_str(), "3,7,%d,%lf,%lf %lf %lf %lf %lf %lf %lf %lf %lf,%lf %lf %lf,%lf", &object,
+                          &score, R, R + 1, R + 2, R + 3, R + 4, R + 5, R + 6, R + 7, R + 8, t, t + 1, t + 2, &seconds),
+              15)
+        << row;
+    EXPECT_GT(seconds, 0);
+    for (const GroundTruth& truth : scene.objects) {
+      const bool same = truth.object == "obj_00000" + std::to_string(object) && score >= 0.5;
+      const Eigen::Vector3d off = 1000 * truth.T_scene_reference->translation() - Eigen::Vector3d(t[0], t[1], t[2]);
+      near += same && off.norm() < 10 ? 1 : 0;  // [mm]
+    }
+  }
+  EXPECT_GE(count, near);
+  EXPECT_EQ(near, scene.objects.size());
 }
 
 TEST_F(SimulateCommand, RefusesWithTheReason) {
