@@ -12,6 +12,7 @@
 #include <sks_detector/file.hpp>
 
 #include "bumps.hpp"
+#include "recorded_data.hpp"
 #include "run_sks.hpp"
 #include "temporary_folder.hpp"
 
@@ -289,6 +290,20 @@ TEST_F(EvaluateCommand, BadUsageHasItsOwnStatus) {
   const CommandRun untrained = evaluate();
   EXPECT_EQ(untrained.status, 2);
   EXPECT_THAT(untrained.errors, AllOf(HasSubstr("has no training clouds"), HasSubstr("--codebook FILE")));
+}
+
+TEST(EvaluateRecordedScenes, ScoresMeanTheSameForEverySelection) {
+  const std::string file = test::recordedData("kinect/dataset.yaml");
+  if (file.empty()) GTEST_SKIP() << "no recorded data: set SKS_DATA";
+  const test::TemporaryFolder folder;
+  const std::string codebook = folder.path("kinect.sks");
+  ASSERT_EQ(runSks({"train", "--dataset", file, "--output", codebook}).status, 0);
+  for (const char* discard : {"0", "0.75"}) {
+    const CommandRun run = runSks({"evaluate", "--dataset", file, "--codebook", codebook, "--set",
+                                   std::string("keypoints.discard=") + discard, "--json", "-"});
+    ASSERT_EQ(run.status, 0) << run.errors;
+    EXPECT_GT(json::parse(run.output)["f1"].get<double>(), 0.9) << discard;  // at the same fixed threshold
+  }
 }
 
 }  // namespace

@@ -38,6 +38,13 @@ struct Examined {
   std::vector<std::uint32_t> partners;
 };
 
+/// Of the density that votes have after this selection, what they would have after that of half the keypoints, for which
+/// the evidence that scores 0.5 is set.
+double densityAsOfHalf(double density, const KeypointSettings& keypoints) {
+  const bool ranks = keypoints.detector == KeypointDetector::grid && keypoints.selection == SelectionRule::rank;
+  return ranks ? density * 0.5 / (1 - keypoints.discard) : density;
+}
+
 /// The evidence grows with the share of the visible surface that is confirmed, with its telling area, with the share of
 /// all that faces the sensor, and with the votes for the place.
 double evidenceOf(const PoseEvidence& pose, double density) {
@@ -130,7 +137,7 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
     hypothesis.votes = densities[hypothesis.object].count(center);
     PoseEvidence evidence =
         examinePose(view, telling_[hypothesis.view], scene, settings, hypothesis.T_scene_model, most_points, partners);
-    hypothesis.evidence = evidenceOf(evidence, hypothesis.density);
+    hypothesis.evidence = evidenceOf(evidence, densityAsOfHalf(hypothesis.density, settings.keypoints));
     if (scene.comparesColor(view)) hypothesis.evidence *= color_gain;
     return Examined{std::move(hypothesis), std::move(evidence.partners)};
   };
