@@ -7,6 +7,8 @@ set_property(CACHE SKS_INSTRUMENT PROPERTY STRINGS "" address thread fuzz covera
 
 if(SKS_INSTRUMENT STREQUAL "address")
   set(sks_instrument_flags -fsanitize=address,undefined)
+  # With this sanitizer Eigen aligns memory by itself; the PCL that is linked was built without and frees what we allocate.
+  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 elseif(SKS_INSTRUMENT STREQUAL "thread")
   set(sks_instrument_flags -fsanitize=thread)
 elseif(SKS_INSTRUMENT STREQUAL "fuzz")
