@@ -156,7 +156,8 @@ def write(path, runs, pictures, threads):
     folder = os.path.dirname(os.path.abspath(path))
     by_command = {command: [run for run in runs if run[1].command == command]
                   for command in ('evaluate', 'classify', 'keypoints')}
-    text = ['# Figures of every method\n\nHow to evaluate, data set files and measures: [evaluate.md](evaluate.md). Written by `scripts/reproduce`, which runs all of it again:\n\n```\n'
+    text = ['# Figures of every method\n\nHow to evaluate, data set files and measures: [evaluate.md](evaluate.md). Written by '
+            '`scripts/reproduce`, which runs all of it again:\n\n```\n'
             'scripts/reproduce --data $SKS_DATA [D.yaml ...]\n```\n\n'
             f'Machine: {machine(threads)} Times are wall-clock times: on a machine with other work they say little.\n'
             'Settings of the methods and how they were found: [baselines.md](baselines.md).\n'
