@@ -38,8 +38,8 @@ struct Examined {
   std::vector<std::uint32_t> partners;
 };
 
-/// Of the density that votes have after this selection, what they would have after that of half the keypoints, for which
-/// the evidence that scores 0.5 is set.
+/// Of the density that votes have after this selection, what they would have after that of half the keypoints, for
+/// which the evidence that scores 0.5 is set.
 double densityAsOfHalf(double density, const KeypointSettings& keypoints) {
   const bool ranks = keypoints.detector == KeypointDetector::grid && keypoints.selection == SelectionRule::rank;
   return ranks ? density * 0.5 / (1 - keypoints.discard) : density;
