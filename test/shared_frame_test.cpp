@@ -89,7 +89,7 @@ TEST(SharedFrame, IsTrainedStoredAndNamed) {
   const Codebook trained = train({sample}, {}, "toys");
   const test::TemporaryFolder folder;
   writeCodebook(folder.path("a.sks"), trained);
-  const TrainingView& view = readCodebook(folder.path("a.sks"))->views.at(0);
+  const TrainingView view = readCodebook(folder.path("a.sks"))->views.at(0);
   EXPECT_EQ(view.frame, "bumps.obj");
   EXPECT_EQ(view.frameName(), "bumps.obj");
   EXPECT_EQ(view.center(), Eigen::Vector3f(1, 0, -1));
