@@ -61,7 +61,7 @@ void codebooks(const std::string& folder) {
   for (sks::TrainingView& view : codebook.views) {
     view.surface_points.resize(3);
     view.surface_normals.resize(3);
-    view.surface_colors.resize(3);
+    view.surface_colors.assign(3, Eigen::Vector3f::Constant(0.5f));
     view.frame = "common";
   }
   sks::writeCodebook(corpus.path("two_words"), codebook);
