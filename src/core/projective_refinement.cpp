@@ -157,7 +157,7 @@ Eigen::Vector3f take(const TrainingView& view, std::size_t stride, SurfaceSample
     sum += view.surface_points[i];
   }
   sample.size = sample.x.size();
-  const Eigen::Vector3f centroid = sum / float(std::max<std::size_t>(1, sample.size));
+  Eigen::Vector3f centroid = sum / float(std::max<std::size_t>(1, sample.size));
   for (std::size_t i = 0; i < PointGrid::simd_padding; ++i) add(centroid, Eigen::Vector3f::Zero());
   return centroid;
 }

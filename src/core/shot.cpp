@@ -35,7 +35,7 @@ struct Contributions {
 /// Sums in two copies each: neighbours that follow each other often fall into the same bins, and need not wait.
 template <int bins>
 struct Sums {
-  static constexpr std::size_t size = 32 * bins;
+  static constexpr std::size_t size = std::size_t(32) * bins;
   float own[2][size] = {};
   float aside[2][size] = {};
 };

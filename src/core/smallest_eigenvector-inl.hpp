@@ -25,9 +25,10 @@ struct SymmetricMatrices {
 template <class D, class V>
 class Characteristic {
 public:
-  HWY_INLINE Characteristic(D d, const SymmetricMatrices<V>& m) : d_(d) {
-    minors_ = hn::Sub(hn::MulAdd(m.xx, m.yy, hn::MulAdd(m.xx, m.zz, hn::Mul(m.yy, m.zz))),
-                      hn::MulAdd(m.xy, m.xy, hn::MulAdd(m.xz, m.xz, hn::Mul(m.yz, m.yz))));
+  HWY_INLINE Characteristic(D d, const SymmetricMatrices<V>& m)
+      : d_(d),
+        minors_(hn::Sub(hn::MulAdd(m.xx, m.yy, hn::MulAdd(m.xx, m.zz, hn::Mul(m.yy, m.zz))),
+                        hn::MulAdd(m.xy, m.xy, hn::MulAdd(m.xz, m.xz, hn::Mul(m.yz, m.yz))))) {
     const V yz = hn::Sub(hn::Mul(m.yy, m.zz), hn::Mul(m.yz, m.yz));
     const V xz = hn::Sub(hn::Mul(m.xy, m.zz), hn::Mul(m.yz, m.xz));
     const V xy = hn::Sub(hn::Mul(m.xy, m.yz), hn::Mul(m.yy, m.xz));

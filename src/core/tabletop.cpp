@@ -65,6 +65,7 @@ public:
 private:
   std::vector<Eigen::Vector2f> projected(const std::vector<Eigen::Vector3f>& points) const {
     std::vector<Eigen::Vector2f> flat;
+    flat.reserve(points.size());
     for (const auto& p : points) flat.emplace_back(p.dot(u_), p.dot(v_));
     return flat;
   }

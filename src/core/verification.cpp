@@ -117,6 +117,7 @@ void resolveConflicts(std::vector<Examined>& examined, const Surface& scene, flo
 }  // namespace
 
 Verifier::Verifier(std::shared_ptr<const Codebook> codebook) : codebook_(std::move(codebook)) {
+  telling_.reserve(codebook_->views.size());
   for (const TrainingView& view : codebook_->views) {
     telling_.emplace_back(view);
     largest_extent_ = std::max(largest_extent_, view.extent().maxCoeff());
@@ -127,6 +128,7 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
                                             const Settings& settings, int threads) const {
   const std::vector<PoseCandidate> candidates = poseCandidates(*codebook_, telling_, spaces, scene, settings, threads);
   std::vector<VoteDensity> densities;
+  densities.reserve(spaces.size());
   for (const auto& votes : spaces) densities.emplace_back(votes, settings.voting.bandwidth);
   const auto examine = [&](Hypothesis hypothesis, std::size_t most_points, Partners partners) {
     const TrainingView& view = codebook_->views[hypothesis.view];

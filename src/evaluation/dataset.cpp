@@ -94,7 +94,7 @@ void DataSetReader::readUnits(const YamlMap& map) {
 
 std::string DataSetReader::cloudPath(const YamlMap& map) const {
   if (isBuiltin(map.text("cloud"))) return map.text("cloud");
-  const std::string path = resolve(map.text("cloud"));
+  std::string path = resolve(map.text("cloud"));
   std::error_code ignored;
   if (fs::is_regular_file(path, ignored)) return path;
   throw Error(ErrorCode::bad_file, file_ + ":" + std::to_string(map.at("cloud").Mark().line + 1) + ": cloud '" + path +

@@ -39,9 +39,11 @@ std::vector<Detection> ranked(const Scene& scene, const std::vector<Detection>& 
                            p.z());
   };
   std::vector<std::pair<decltype(key(detections.front())), std::size_t>> order;
+  order.reserve(detections.size());
   for (std::size_t i = 0; i < detections.size(); ++i) order.emplace_back(key(detections[i]), i);
   std::sort(order.begin(), order.end());
   std::vector<Detection> result;
+  result.reserve(order.size());
   for (const auto& item : order) result.push_back(detections[item.second]);
   return result;
 }

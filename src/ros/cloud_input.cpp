@@ -111,7 +111,7 @@ void CloudInput::receive(const sensor_msgs::PointCloud2ConstPtr& cloud) {
 
 void CloudInput::updateSubscription() {
   const std::lock_guard<std::mutex> subscribing(subscribing_);
-  bool needed;
+  bool needed = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     needed = !stopped_ && (wanted_ || waiting_ > 0);

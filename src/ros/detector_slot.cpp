@@ -47,7 +47,7 @@ std::string DetectorSlot::codebookName() const {
   return used ? nameWithChecksum(used->codebook()) : "";
 }
 
-void DetectorSlot::setCodebook(std::shared_ptr<const sks::Codebook> codebook, const std::string& file) {
+void DetectorSlot::setCodebook(const std::shared_ptr<const sks::Codebook>& codebook, const std::string& file) {
   const std::lock_guard<std::mutex> building(building_);
   std::shared_ptr<const sks::Detector> built;
   if (codebook) {

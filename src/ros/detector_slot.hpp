@@ -38,7 +38,7 @@ public:
 
   /// Swaps in a codebook; null takes it out. Takes as long as its matcher takes to build; frames and setSettings() do
   /// not wait for it. @throws sks::Error; the old one is then still in use
-  void setCodebook(std::shared_ptr<const sks::Codebook> codebook, const std::string& file);
+  void setCodebook(const std::shared_ptr<const sks::Codebook>& codebook, const std::string& file);
   /// Notes where a codebook was saved, if it is still the one in use.
   void setCodebookFile(const sks::Codebook& codebook, const std::string& file);
 

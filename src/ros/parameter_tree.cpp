@@ -31,7 +31,7 @@ std::string textOf(XmlRpcValue value) {
   }
 }
 
-void flatten(XmlRpcValue tree, const std::string& prefix, const std::function<bool(const std::string&)>& is_parameter,
+void flatten(XmlRpcValue& tree, const std::string& prefix, const std::function<bool(const std::string&)>& is_parameter,
              std::map<std::string, std::string>& leaves) {
   for (auto& [name, value] : tree) {
     const std::string key = prefix + name;

@@ -32,7 +32,7 @@ ServiceContext::ServiceContext(DetectorSlot& detector_slot, StatusBoard& status_
       captured((fs::path(dataset_directory) / "captured").string()) {}
 
 std::string ServiceContext::codebookPath(const std::string& path) const {
-  const std::string file = sks::confinedPath(path, codebook_directory);
+  std::string file = sks::confinedPath(path, codebook_directory);
   if (fs::path(file).extension() == ".sks") return file;
   throw sks::Error(sks::ErrorCode::bad_usage,
                    "'" + file + "' is not called like a codebook; let its name end with .sks");

@@ -114,6 +114,7 @@ std::vector<std::vector<Eigen::Vector3f>> convexParts(const Mesh& mesh, float to
     }
   }
   std::vector<std::vector<Eigen::Vector3f>> parts;
+  parts.reserve(closed.size());
   for (const Triangles& part : closed) parts.push_back(pointsOf(mesh, part, 0.5f * tolerance));
   return parts;
 }

@@ -148,7 +148,7 @@ void append(Mesh& mesh, const Mesh& more) {
   const int first = int(mesh.vertices.size());
   mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
   mesh.colors.insert(mesh.colors.end(), more.colors.begin(), more.colors.end());
-  for (const Eigen::Vector3i& t : more.triangles) mesh.triangles.push_back(t.array() + first);
+  for (const Eigen::Vector3i& t : more.triangles) mesh.triangles.emplace_back(t.array() + first);
 }
 
 Mesh transformed(Mesh mesh, const Eigen::Isometry3f& transform) {

@@ -23,7 +23,7 @@ Texture::Level Texture::half(const Level& level) {
     for (int x = 0; x < result.width; ++x) {
       int sum[3] = {2, 2, 2};  // rounds the mean
       for (int k = 0; k < 4; ++k) {
-        const Rgb& c = level.pixels[std::size_t((2 * y + k / 2) * level.width + 2 * x + k % 2)];
+        const Rgb& c = level.pixels[std::size_t(2 * y + k / 2) * std::size_t(level.width) + std::size_t(2 * x + k % 2)];
         sum[0] += c.r;
         sum[1] += c.g;
         sum[2] += c.b;
@@ -44,7 +44,7 @@ Rgb Texture::at(float u, float v, float footprint) const {
   float sum[3] = {0.5f, 0.5f, 0.5f};
   for (int k = 0; k < 4; ++k) {
     const int c = (column + k % 2 + level.width) % level.width, r = (row + k / 2 + level.height) % level.height;
-    const Rgb& pixel = level.pixels[std::size_t(r * level.width + c)];
+    const Rgb& pixel = level.pixels[std::size_t(r) * std::size_t(level.width) + std::size_t(c)];
     const float weight = (k % 2 ? right : 1 - right) * (k / 2 ? down : 1 - down);
     sum[0] += weight * pixel.r;
     sum[1] += weight * pixel.g;

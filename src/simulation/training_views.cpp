@@ -46,7 +46,7 @@ Eigen::Isometry3d lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& targ
 }
 
 std::vector<TrainingSample> meshSamples(const std::string& object, const std::string& source,
-                                        std::shared_ptr<const Mesh> mesh, const MeshTraining& training) {
+                                        const std::shared_ptr<const Mesh>& mesh, const MeshTraining& training) {
   constexpr int most_views = 10000;
   if (training.views < 1 || training.views > most_views) {
     throw Error(ErrorCode::bad_usage, "views = " + std::to_string(training.views) + " must be in [1, 10000]");

@@ -59,7 +59,7 @@ std::string confusionTable(const ClassificationEvaluation& evaluation) {
   std::vector<std::string> header{"<true \\ answer"};
   const std::size_t count = evaluation.objects.size();
   for (std::size_t i = 0; i < count; ++i) header.push_back(std::to_string(i + 1));
-  header.push_back("none");
+  header.emplace_back("none");
   Table table(header);
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<std::string> row{std::to_string(i + 1) + " " + evaluation.objects[i]};

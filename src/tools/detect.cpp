@@ -38,7 +38,7 @@ std::string imagePath(const Options& options, std::size_t index) {
 }
 
 std::string resultTable(const std::string& path, const std::vector<Detection>& detections, const StageTimes& times) {
-  const std::string head =
+  std::string head =
       path + ": " + std::to_string(detections.size()) + " found in " + fixed(1000 * times.total, 0) + " ms\n";
   if (detections.empty()) return head;
   Table table({"<object", "score", "x [m]", "y [m]", "z [m]", "box [m]", "votes", "inliers"});

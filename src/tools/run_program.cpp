@@ -18,6 +18,7 @@ int runProgram(const std::vector<std::string>& arguments) {
                 "cannot run '" + arguments.front() + "': " + std::generic_category().message(reason));
   };
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;

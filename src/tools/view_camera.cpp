@@ -11,7 +11,7 @@ namespace {
 std::vector<Eigen::Vector3d> finitePoints(const Cloud& cloud) {
   std::vector<Eigen::Vector3d> points;
   for (const Eigen::Vector3f& p : cloud.points) {
-    if (p.allFinite()) points.push_back(p.cast<double>());
+    if (p.allFinite()) points.emplace_back(p.cast<double>());
   }
   return points;
 }
@@ -75,11 +75,11 @@ std::pair<double, double> innerRange(std::vector<double> values) {
 
 }  // namespace
 
-ViewCamera::ViewCamera(const Cloud& cloud, cv::Size size) : center_(0.5 * size.width, 0.5 * size.height) {
+ViewCamera::ViewCamera(const Cloud& cloud, cv::Size size)
+    : focal_(size.width), center_(0.5 * size.width, 0.5 * size.height) {
   const std::vector<Eigen::Vector3d> points = finitePoints(cloud);
   T_camera_cloud_ = choosePose(points, cloud.sensor_origin.cast<double>());
 
-  focal_ = size.width;
   std::vector<double> u, v;
   for (const Eigen::Vector3d& point : points) {
     const Eigen::Vector3d p = toCamera(point);

@@ -25,7 +25,7 @@ struct MeshTraining {
 /// ...
 /// @throws Error(bad_usage) for impossible settings; loading a sample Error(bad_data) if nothing can be seen
 std::vector<TrainingSample> meshSamples(const std::string& object, const std::string& source,
-                                        std::shared_ptr<const Mesh> mesh, const MeshTraining& training);
+                                        const std::shared_ptr<const Mesh>& mesh, const MeshTraining& training);
 
 /// A camera at `eye` that looks at `target`; the image's rows run across the direction of `up`.
 Eigen::Isometry3d lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::Vector3d& up);

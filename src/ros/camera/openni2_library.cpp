@@ -26,6 +26,7 @@ std::vector<std::string> connectedUris() {
   openni::Array<openni::DeviceInfo> infos;
   openni::OpenNI::enumerateDevices(&infos);
   std::vector<std::string> uris;
+  uris.reserve(static_cast<std::size_t>(infos.getSize()));
   for (int i = 0; i < infos.getSize(); ++i) uris.emplace_back(infos[i].getUri());
   return uris;
 }

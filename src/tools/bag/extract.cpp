@@ -58,7 +58,7 @@ public:
   std::size_t count() const { return names_.size(); }
 
   std::string finish(const std::string& name) const {
-    const std::string path = (folder_ / "dataset.yaml").string();
+    std::string path = (folder_ / "dataset.yaml").string();
     writeFileAtomically(path,
                         "# Clouds out of a bag, named by their stamps. Give each scene the objects that stand in "
                         "it, and list what is to be trained.\nname: " +

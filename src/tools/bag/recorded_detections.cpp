@@ -74,7 +74,7 @@ RecordedDetections readDetections(const BagFile& bag, const std::string& topic) 
 
 std::string findCloudTopic(const BagFile& bag, const std::string& name) {
   if (!name.empty()) return bag.findTopic(name, cloud_type);
-  const std::string topic = onlyOne(bag, bag.topicsOf(cloud_type), "--topic");
+  std::string topic = onlyOne(bag, bag.topicsOf(cloud_type), "--topic");
   if (topic.empty()) throw Error(ErrorCode::bad_data, "'" + bag.path() + "' has no topic of type " + cloud_type);
   return topic;
 }

@@ -66,7 +66,7 @@ std::optional<UniboScene> readUniboIni(const std::string& path, const std::strin
   const auto file = [&](const std::string& key) {
     const auto value = values.find(key);
     if (value == values.end()) throw Error(ErrorCode::bad_file, path + ": the key " + key + " is missing");
-    const std::string found = resolve(value->second, path, root);
+    std::string found = resolve(value->second, path, root);
     if (found.empty()) {
       throw Error(ErrorCode::bad_file,
                   path + ": " + key + " names '" + value->second + "', which is nowhere in '" + root + "'");

@@ -101,7 +101,7 @@ void SimulatedSet::add(const SimulatedScene& scene) {
 }
 
 std::string SimulatedSet::finish() const {
-  const std::string path = (fs::path(folder_) / "dataset.yaml").string();
+  std::string path = (fs::path(folder_) / "dataset.yaml").string();
   writeFileAtomically(
       path,
       "# Simulated scenes: exact poses; visibility is the share of an object's pixels that others do not hide.\n"
