@@ -78,7 +78,7 @@ void codeDistancesImpl(const std::array<const CodedVector*, queries_at_once>& qu
   const Sums d;
   const hn::RebindToFloat<Sums> df;
   // Short vectors are taken in pairs: what is loaded of the queries then serves both.
-  constexpr std::size_t vectors = 4 * block_words >= 2 * HWY_MAX_BYTES ? 2 : 1;
+  constexpr std::size_t vectors = 2 * block_words >= HWY_MAX_BYTES ? 2 : 1;
   const std::size_t lanes = hn::Lanes(d);
   for (std::size_t first = 0; first < blocks * block_words; first += vectors * lanes) {
     const std::size_t block = first_block + first / block_words;
