@@ -26,9 +26,9 @@ else()
   set(location -DCMAKE_PREFIX_PATH=${prefix})
   if(NOT BUILD_DIR)
     set(BUILD_DIR ${WORK_DIR}/build)
-    # Without optimisation, which would only cost time here.
-    run(${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${BUILD_DIR} -DCMAKE_BUILD_TYPE=Debug -DSKS_BUILD_TESTING=OFF
-      -DSKS_BUILD_BENCHMARKS=OFF)
+    # Without optimisation and debug information, which would only cost time here.
+    run(${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${BUILD_DIR} -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=
+      -DSKS_BUILD_TESTING=OFF -DSKS_BUILD_BENCHMARKS=OFF)
     cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
     run(${CMAKE_COMMAND} --build ${BUILD_DIR} --parallel ${cores})
   endif()
