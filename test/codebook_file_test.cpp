@@ -303,6 +303,30 @@ TEST_F(CodebookFile, UnknownDescriptorsAreNamed) {
             "it holds descriptors of the unknown type 'fpfh' with 352 bins: update sks_detector");
 }
 
+// Sums and squares of what is finite but huge are not: votes would lie nowhere.
+TEST_F(CodebookFile, NumbersNearOverflowAreRefused) {
+  const auto fault = [&](const auto& change) {
+    sks::Codebook codebook = makeCodebook();
+    change(codebook);
+    return sks::codebookFault(codebook);
+  };
+  const float huge = 1e30f;
+  EXPECT_EQ(fault([&](auto& codebook) { codebook.words[1].position.x() = huge; }),
+            "its codeword 1 does not lie within 1000 km");
+  EXPECT_EQ(fault([&](auto& codebook) { codebook.words[1].frame(2, 0) = -huge; }),
+            "its codeword 1 has a reference frame whose axes are no unit vectors");
+  EXPECT_EQ(fault([&](auto& codebook) { codebook.views[0].sensor_origin.z() = -huge; }),
+            "its training cloud 'view0.pcd' has a sensor origin that is not within 1000 km");
+  EXPECT_EQ(fault([&](auto& codebook) { codebook.views[0].box_max.z() = huge; }),
+            "its training cloud 'view0.pcd' has a box that is not within 1000 km");
+  EXPECT_EQ(fault([&](auto& codebook) { codebook.views[2].surface_points[0].y() = -huge; }),
+            "its training cloud 'view2.pcd' has a surface that is not within 1000 km");
+  EXPECT_EQ(fault([&](auto& codebook) { codebook.views[2].surface_normals[0].y() = huge; }),
+            "its training cloud 'view2.pcd' has a surface normal that is no unit vector");
+  EXPECT_EQ(fault([&](auto& codebook) { codebook.views[2].surface_colors[0].y() = huge; }),
+            "its training cloud 'view2.pcd' has a surface colour that is none");
+}
+
 TEST_F(CodebookFile, OnlySoundCodebooksAreWritten) {
   const auto writeError = [&](const sks::Codebook& codebook) {
     const std::string message = errorOf(ErrorCode::bad_file, [&] { sks::writeCodebook(path_, codebook); });
@@ -316,7 +340,7 @@ TEST_F(CodebookFile, OnlySoundCodebooksAreWritten) {
   EXPECT_EQ(writeError(codebook), "its 1 codewords have 2 descriptors of 352 bins");
   codebook = makeCodebook();
   codebook.words[0].frame(1, 1) = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(writeError(codebook), "its codeword 0 is not finite");
+  EXPECT_EQ(writeError(codebook), "its codeword 0 has a reference frame whose axes are no unit vectors");
   codebook = makeCodebook();
   codebook.views[2].surface_normals.pop_back();
   EXPECT_EQ(writeError(codebook), "its training cloud 'view2.pcd' has not one normal for each surface point");

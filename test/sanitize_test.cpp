@@ -173,5 +173,7 @@ TEST(Sanitize, LengthsThatDoNotFitAreRefused) {
   EXPECT_EQ(refusal(cloud), "the cloud holds 10 points, but its width x height is 10 x 2");
   cloud = line();
   cloud.sensor_origin.x() = not_a_number;
-  EXPECT_EQ(refusal(cloud), "the cloud's sensor origin (viewpoint) is not finite");
+  EXPECT_EQ(refusal(cloud), "the cloud's sensor origin (viewpoint) does not lie within 1000 km of its points' origin");
+  cloud.sensor_origin.x() = 1e30f;
+  EXPECT_EQ(refusal(cloud), "the cloud's sensor origin (viewpoint) does not lie within 1000 km of its points' origin");
 }

@@ -85,7 +85,10 @@ void checkShape(const Cloud& cloud) {
     refuse("the cloud holds " + std::to_string(cloud.colors.size()) + " colours for " +
            std::to_string(cloud.points.size()) + " points");
   }
-  if (!cloud.sensor_origin.allFinite()) refuse("the cloud's sensor origin (viewpoint) is not finite");
+  constexpr float farthest_origin = 1e6f;  // [m]; squares of coordinates are far from overflow
+  if (!(cloud.sensor_origin.array().abs() <= farthest_origin).all()) {
+    refuse("the cloud's sensor origin (viewpoint) does not lie within 1000 km of its points' origin");
+  }
 }
 
 /// Indices of the finite points within range and crop box; counts the others.

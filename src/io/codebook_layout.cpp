@@ -21,6 +21,16 @@ bool inside(std::uint64_t offset, std::uint64_t size, std::uint64_t file_size) {
          size <= file_size - offset;
 }
 
+/// Whether numbers are finite and so far from overflow that what is computed of them is finite as well.
+template <typename Numbers>
+bool within(const Numbers& numbers, float largest) {
+  return (numbers.array().abs() <= largest).all();
+}
+
+constexpr float largest_length = 1e6f;     // [m]
+constexpr float largest_of_unit = 1.001f;  // of a unit vector's parts, with what rounding adds
+constexpr float largest_color = 10;        // of scaled CIELab, which stays within about 1
+
 std::string viewFault(const Codebook& codebook, const TrainingView& view) {
   if (view.object >= codebook.objects.size()) return "belongs to an object that is not there";
   if (view.frame.size() > longest_frame) return "has a frame with a name of more than 4096 bytes";
@@ -28,13 +38,17 @@ std::string viewFault(const Codebook& codebook, const TrainingView& view) {
   if (!view.surface_colors.empty() && view.surface_colors.size() != view.surface_points.size()) {
     return "has not one colour for each surface point";
   }
-  if (!view.sensor_origin.allFinite()) return "has a sensor origin that is not finite";
-  if (!view.box_min.allFinite() || !view.box_max.allFinite()) return "has a box that is not finite";
-  if ((view.box_min.array() > view.box_max.array()).any()) return "has a box of negative size";
-  const auto finite = [](const Eigen::Vector3f& v) { return v.allFinite(); };
-  for (const auto* surface : {&view.surface_points, &view.surface_normals, &view.surface_colors}) {
-    if (!std::all_of(surface->begin(), surface->end(), finite)) return "has a surface that is not finite";
+  if (!within(view.sensor_origin, largest_length)) return "has a sensor origin that is not within 1000 km";
+  if (!within(view.box_min, largest_length) || !within(view.box_max, largest_length)) {
+    return "has a box that is not within 1000 km";
   }
+  if ((view.box_min.array() > view.box_max.array()).any()) return "has a box of negative size";
+  const auto all_within = [](const std::vector<Eigen::Vector3f>& vectors, float largest) {
+    return std::all_of(vectors.begin(), vectors.end(), [&](const auto& vector) { return within(vector, largest); });
+  };
+  if (!all_within(view.surface_points, largest_length)) return "has a surface that is not within 1000 km";
+  if (!all_within(view.surface_normals, largest_of_unit)) return "has a surface normal that is no unit vector";
+  if (!all_within(view.surface_colors, largest_color)) return "has a surface colour that is none";
   return "";
 }
 
@@ -86,7 +100,8 @@ std::string codebookFault(const Codebook& codebook) {
     const Codeword& word = codebook.words[i];
     const std::string name = "its codeword " + std::to_string(i);
     if (word.view >= codebook.views.size()) return name + " belongs to a training cloud that is not there";
-    if (!word.position.allFinite() || !word.frame.allFinite()) return name + " is not finite";
+    if (!within(word.position, largest_length)) return name + " does not lie within 1000 km";
+    if (!within(word.frame, largest_of_unit)) return name + " has a reference frame whose axes are no unit vectors";
   }
   return "";
 }
