@@ -126,9 +126,13 @@ void MeshReader::add(const aiMesh& part) {
 }
 
 void check(const std::string& path, const Mesh& mesh) {
+  constexpr float farthest_vertex = 1e9f;  // [unit of the file]; 1000 km in millimetres
   if (mesh.triangles.empty()) fail(path, "it has no triangles; a point cloud goes with `kind: model` or `kind: view`");
   for (const Eigen::Vector3f& v : mesh.vertices) {
-    if (!v.allFinite()) fail(path, "it has a vertex that is not finite; repair it in a mesh editor");
+    if (!(v.array().abs() <= farthest_vertex).all()) {
+      fail(path,
+           "it has a vertex that is not finite or lies farther than a billion units away; repair it in a mesh editor");
+    }
   }
   for (const Eigen::Vector2f& uv : mesh.texture_uv) {
     if (!uv.allFinite()) fail(path, "it has a texture coordinate that is not finite; repair it in a mesh editor");
@@ -141,15 +145,15 @@ void applyScale(const std::string& path, double scale, LoadedMesh& loaded) {
   if (scale <= 0) {
     scale = diagonal > largest_in_metres ? 0.001 : 1;
     if (scale < 1) {
-      loaded.warnings.push_back(path + ": it measures " + std::to_string(int(diagonal)) +
+      loaded.warnings.push_back(path + ": it measures " + std::to_string(long(diagonal)) +
                                 " units across, which is taken for millimetres");
     }
   }
   for (Eigen::Vector3f& v : loaded.mesh.vertices) v *= float(scale);
 }
 
-/// Of the dozens of formats that assimp reads, those that are tested. The header of a PLY file is read by us first: over
-/// one that is cut off assimp's reader never ends.
+/// Of the dozens of formats that assimp reads, those that are tested. The header of a PLY file is read by us first:
+/// over one that is cut off assimp's reader never ends.
 void checkFormat(const std::string& path) {
   std::string ending = fs::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return char(std::tolower(c)); });

@@ -136,6 +136,8 @@ TEST_F(MeshFile, RefusesWhatCannotBeUsed) {
                             "property float z\nend_header\n0 0 0\n")),
               HasSubstr("points.ply': "));
   EXPECT_THAT(refusal(write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), HasSubstr("not finite"));
+  EXPECT_THAT(refusal(write("huge.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n")),
+              HasSubstr("farther than a billion units away"));
   EXPECT_THAT(refusal(write("flat.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n")), HasSubstr("flat.obj': "));
   EXPECT_THAT(refusal(write("text.obj", "hello\n")), HasSubstr("text.obj': "));
   EXPECT_THAT(refusal(write("foreign.xyz", "1 2 3\n")), HasSubstr("foreign.xyz': "));
