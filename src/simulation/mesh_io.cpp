@@ -170,6 +170,16 @@ void checkFormat(const std::string& path) {
   }
 }
 
+/// Assimp's triangulation ends the program at a face that has no corner.
+void checkFaces(const std::string& path, const aiScene& scene) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned i = 0; i < part.mNumFaces; ++i) {
+      if (part.mFaces[i].mNumIndices == 0) fail(path, "it has a face without corners; repair it in a mesh editor");
+    }
+  }
+}
+
 }  // namespace
 
 LoadedMesh loadMesh(const std::string& path, double scale) {
@@ -180,8 +190,12 @@ LoadedMesh loadMesh(const std::string& path, double scale) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // the file's own axes are the model's
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
-                                                     aiProcess_PreTransformVertices | aiProcess_SortByPType);
+  const aiScene* scene = importer.ReadFile(path, 0);
+  if (scene != nullptr) {
+    checkFaces(path, *scene);
+    scene = importer.ApplyPostProcessing(aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
+                                         aiProcess_PreTransformVertices | aiProcess_SortByPType);
+  }
   if (scene == nullptr) fail(path, importer.GetErrorString());
   LoadedMesh loaded = MeshReader(path, *scene).read();
   check(path, loaded.mesh);
