@@ -170,12 +170,17 @@ void checkFormat(const std::string& path) {
   }
 }
 
-/// Assimp's triangulation ends the program at a face that has no corner.
+/// What assimp's own steps take for granted: over a face without corners they end the program, vertices that are not
+/// there they read all the same.
 void checkFaces(const std::string& path, const aiScene& scene) {
   for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[m];
     for (unsigned i = 0; i < part.mNumFaces; ++i) {
-      if (part.mFaces[i].mNumIndices == 0) fail(path, "it has a face without corners; repair it in a mesh editor");
+      const aiFace& face = part.mFaces[i];
+      if (face.mNumIndices == 0) fail(path, "it has a face without corners; repair it in a mesh editor");
+      const bool there = std::all_of(face.mIndices, face.mIndices + face.mNumIndices,
+                                     [&](unsigned index) { return index < part.mNumVertices; });
+      if (!there) fail(path, "it has a face with a vertex that is not in the file; copy it again");
     }
   }
 }
