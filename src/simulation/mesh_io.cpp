@@ -152,6 +152,23 @@ void applyScale(const std::string& path, double scale, LoadedMesh& loaded) {
   for (Eigen::Vector3f& v : loaded.mesh.vertices) v *= float(scale);
 }
 
+/// Assimp looks for the end of a PLY header line by line, for ever if it finds none: lines must be such that it splits
+/// them as readPlyHeader() does.
+void checkHeaderLines(std::istream& file) {
+  const std::array<const char*, 7> keywords = {"ply",     "format",   "comment",   "obj_info",
+                                               "element", "property", "end_header"};
+  std::string line;
+  for (int number = 1; line != "end_header" && std::getline(file, line); ++number) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    const std::string keyword = line.substr(0, line.find(' '));
+    const bool known = std::find(keywords.begin(), keywords.end(), keyword) != keywords.end();
+    const bool text = std::none_of(line.begin(), line.end(), [](unsigned char c) { return c < ' ' && c != '\t'; });
+    if (!known || !text || (keyword == "end_header" && line != keyword)) {
+      throw Error(ErrorCode::bad_data, "its PLY header is damaged in line " + std::to_string(number));
+    }
+  }
+}
+
 /// Of the dozens of formats that assimp reads, those that are tested. The header of a PLY file is read by us first:
 /// over one that is cut off assimp's reader never ends.
 void checkFormat(const std::string& path) {
@@ -165,6 +182,8 @@ void checkFormat(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   try {
     readPlyHeader(file);
+    file.seekg(0);
+    checkHeaderLines(file);
   } catch (const Error& reason) {
     fail(path, reason.what());
   }

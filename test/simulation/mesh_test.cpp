@@ -55,6 +55,9 @@ TEST_F(MeshFile, CutOffPlyHeadersAreRefused) {
   const std::string header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n";
   EXPECT_THAT(refusal(write("a.ply", header)), HasSubstr("has no line end_header"));
   EXPECT_THAT(refusal(write("b.ply", header + "prope2\n")), HasSubstr("has no line end_header"));
+  EXPECT_THAT(refusal(write("c.ply", header + "end_header\v0 0 1\n")), HasSubstr("PLY header is damaged in line 5"));
+  EXPECT_THAT(refusal(write("d.ply", header + "properWty float y\nend_header\n")),
+              HasSubstr("PLY header is damaged in line 5"));
 }
 
 TEST_F(MeshFile, LargeMeshIsTakenForMillimetresAndSaysSo) {
