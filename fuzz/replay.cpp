@@ -30,7 +30,7 @@ std::vector<std::string> filesOf(const std::string& folder) {
 double secondsOf(const std::string& file) {
   const sks::FileContent input(file);
   const std::clock_t start = std::clock();
-  LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
+  LLVMFuzzerTestOneInput(input.data(), input.size());
   return double(std::clock() - start) / CLOCKS_PER_SEC;
 }
 

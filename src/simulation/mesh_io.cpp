@@ -160,7 +160,7 @@ void checkHeaderLines(std::istream& file) {
   std::string line;
   for (int number = 1; line != "end_header" && std::getline(file, line); ++number) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
-    const std::string keyword = line.substr(0, line.find(' '));
+    const std::string keyword = line.substr(0, line.find_first_of(" \t"));
     const bool known = std::find(keywords.begin(), keywords.end(), keyword) != keywords.end();
     const bool text = std::none_of(line.begin(), line.end(), [](unsigned char c) { return c < ' ' && c != '\t'; });
     if (!known || !text || (keyword == "end_header" && line != keyword)) {
