@@ -138,16 +138,16 @@ TEST_F(MeshFile, RefusesWhatCannotBeUsed) {
                             "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
                             "property float z\nend_header\n0 0 0\n")),
               HasSubstr("points.ply': "));
-  const std::string triangle =
+  const std::string unfinished =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
-  EXPECT_THAT(refusal(write("corners.ply", triangle + "0\n")),
+  EXPECT_THAT(refusal(write("corners.ply", unfinished + "0\n")),
               HasSubstr("corners.ply': it has a face without corners; repair it in a mesh editor"));
   for (const char* face : {"3 0 1 3\n", "3 0 1 60000000\n", "3 0 1 -1\n"}) {
-    EXPECT_THAT(refusal(write("index.ply", triangle + face)),
+    EXPECT_THAT(refusal(write("index.ply", unfinished + face)),
                 HasSubstr("index.ply': it has a face with a vertex that is not in the file; copy it again"));
   }
-  EXPECT_EQ(loadMesh(write("whole.ply", triangle + "3 0 1 2\n")).mesh.triangles.size(), 1u);
+  EXPECT_EQ(loadMesh(write("whole.ply", unfinished + "3 0 1 2\n")).mesh.triangles.size(), 1u);
   EXPECT_THAT(refusal(write("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), HasSubstr("not finite"));
   EXPECT_THAT(refusal(write("huge.obj", "v 0 0 0\nv 1e30 0 0\nv 0 1 0\nf 1 2 3\n")),
               HasSubstr("farther than a billion units away"));
