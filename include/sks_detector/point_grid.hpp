@@ -71,9 +71,9 @@ public:
 
     static constexpr std::uint32_t pivot_spacing = 16;
 
-    std::uint32_t at(float y, float z) const {
-      const int j = std::min(int((y - origin_y) / cell), count_y - 1);
-      const int k = std::min(int((z - origin_z) / cell), count_z - 1);
+    std::uint32_t at(float point_y, float point_z) const {
+      const int j = std::min(int((point_y - origin_y) / cell), count_y - 1);
+      const int k = std::min(int((point_z - origin_z) / cell), count_z - 1);
       return std::uint32_t(k) * std::uint32_t(count_y) + std::uint32_t(j);
     }
   };
