@@ -234,6 +234,12 @@ TEST_F(CloudIo, PlyHeadersThatCannotBeUsed) {
   const std::string position = "property float x\nproperty float y\nproperty float z\n";
   EXPECT_EQ(error(position + "property float red\nproperty float green\nproperty float blue\n"),
             "property 'red' of its vertices must be uchar");
+  for (const char* word : {"nan", "inf", "-inf"}) {
+    EXPECT_EQ(readError("ply\nformat ascii 1.0\nelement vertex 1\n" + position +
+                        "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n1 2 3 4 5 " + word +
+                        "\n"),
+              std::string("it holds '") + word + "' for a whole number");
+  }
   EXPECT_EQ(readError("ply\nformat ascii 1.0\nelement face 0\nend_header\n"), "its PLY header has no element vertex");
   EXPECT_EQ(readError("ply\nelement vertex 1\n" + position + "end_header\n1 2 3\n"),
             "its PLY header has no line format");

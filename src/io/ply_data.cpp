@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include <sks_detector/error.hpp>
 
@@ -46,7 +48,11 @@ public:
 private:
   template <typename T>
   double read() {
-    if (format_ == PlyFormat::ascii) return readWord();
+    if (format_ == PlyFormat::ascii) {
+      const double value = readWord();
+      if (std::is_integral_v<T> && !std::isfinite(value)) fail("it holds '" + word_ + "' for a whole number");
+      return value;
+    }
     char bytes[sizeof(T)];
     if (!file_.read(bytes, sizeof(T))) fail("it is truncated");
     if (format_ == PlyFormat::binary_big_endian) std::reverse(bytes, bytes + sizeof(T));
