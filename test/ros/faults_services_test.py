@@ -52,6 +52,7 @@ class Frames(threading.Thread):
 
 class FaultyServicesTest(services_support.ServicesTest):
     def setUp(self):
+        self.lost_connections = []
         self.file = os.path.join(self.node.codebooks, "replaced.sks")
         shutil.copy(support.CODEBOOK, self.file)
         self.loaded = self.succeed("load_codebook", "replaced.sks").codebook
@@ -59,6 +60,17 @@ class FaultyServicesTest(services_support.ServicesTest):
     def expect_objects(self, objects, answer=None):
         found = answer or self.succeed("detect", support.cloud_message(synthetic.scene()), 0).detections
         self.assertEqual(sorted(d.object for d in found.detections), objects)
+
+    def ask(self, proxy, *arguments, **fields):
+        """A call, once more where the connection ended before an answer came, which is seen now and then when dozens of
+        clients connect at once; counted, and more than one call in a hundred is a failure."""
+        try:
+            return proxy(*arguments, **fields)
+        except rospy.ServiceException as error:
+            if "unable to receive data" not in str(error):
+                raise
+            self.lost_connections.append(str(error))
+            return proxy(*arguments, **fields)
 
     def test_a_thousand_calls_in_parallel_with_frames(self):
         scene = support.cloud_message(synthetic.scene())
@@ -73,7 +85,7 @@ class FaultyServicesTest(services_support.ServicesTest):
         def call(number):
             service, fields, good = calls[number % len(calls)]
             proxy = rospy.ServiceProxy("/detector/" + service, services_support.TYPES[service])  # one is for one thread
-            reply = proxy(**fields)
+            reply = self.ask(proxy, **fields)
             if "training" in reply.message:  # one that is about to fail: it refuses others, or is cancelled
                 return []
             return [] if reply.success == good and reply.message else [(service, reply.message)]
@@ -84,6 +96,7 @@ class FaultyServicesTest(services_support.ServicesTest):
                 wrong = list(itertools.chain.from_iterable(pool.map(call, range(1000))))
             support.wait_for(lambda: len(frames.answers) > before + 3, "frames meanwhile")
         self.assertEqual(wrong, [])
+        self.assertLessEqual(len(self.lost_connections), 10)
         for answer in frames.answers:
             self.expect_objects(["round", "thing"], answer)
         self.assertEqual(self.succeed("info").codebook, self.loaded)
@@ -97,13 +110,14 @@ class FaultyServicesTest(services_support.ServicesTest):
                           bools=[BoolParameter("always_on", number % 2 == 0)])
 
         def call(number):
-            config = rospy.ServiceProxy("/detector/set_parameters", Reconfigure)(parameters(number)).config
+            config = self.ask(rospy.ServiceProxy("/detector/set_parameters", Reconfigure), parameters(number)).config
             return {d.name: d.value for d in config.doubles}
 
         with Frames(self.source) as frames, ThreadPoolExecutor(20) as pool:
             replies = list(pool.map(call, range(500)))
             before = len(frames.answers)
             support.wait_for(lambda: len(frames.answers) > before + 3, "frames afterwards")
+        self.assertLessEqual(len(self.lost_connections), 5)
         pairs = {(round(r["keypoints.discard"], 3), r["tf_timeout"]) for r in replies}
         asked = {(round(d[0].value, 3), d[1].value) for d in (parameters(n).doubles for n in range(500))}
         self.assertLessEqual(pairs - {(0.5, 0.2)}, asked, "no mixture of two sets, nor a refused one")
