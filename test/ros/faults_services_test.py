@@ -50,9 +50,28 @@ class Frames(threading.Thread):
             raise self._failure
 
 
+class Connections:
+    """Persistent connections to services, one per thread; all are closed at the end, since roscpp may lose a new one
+    while it closes an old one (docs/reliability.md)."""
+
+    def __init__(self):
+        self._proxies = []
+
+    def open(self, service, kind):
+        proxy = rospy.ServiceProxy(service, kind, persistent=True)
+        self._proxies.append(proxy)
+        return proxy
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for proxy in self._proxies:
+            proxy.close()
+
+
 class FaultyServicesTest(services_support.ServicesTest):
     def setUp(self):
-        self.lost_connections = []
         self.file = os.path.join(self.node.codebooks, "replaced.sks")
         shutil.copy(support.CODEBOOK, self.file)
         self.loaded = self.succeed("load_codebook", "replaced.sks").codebook
@@ -61,45 +80,64 @@ class FaultyServicesTest(services_support.ServicesTest):
         found = answer or self.succeed("detect", support.cloud_message(synthetic.scene()), 0).detections
         self.assertEqual(sorted(d.object for d in found.detections), objects)
 
-    def ask(self, proxy, *arguments, **fields):
-        """A call, once more where the connection ended before an answer came, which is seen now and then when dozens of
-        clients connect at once; counted, and more than one call in a hundred is a failure."""
-        try:
-            return proxy(*arguments, **fields)
-        except rospy.ServiceException as error:
-            if "unable to receive data" not in str(error):
-                raise
-            self.lost_connections.append(str(error))
-            return proxy(*arguments, **fields)
-
-    def test_a_thousand_calls_in_parallel_with_frames(self):
+    def calls(self):
+        """Requests of all kinds, good and bad: name, fields and whether it is to succeed."""
         scene = support.cloud_message(synthetic.scene())
         unusable = support.cloud_message(np.full((4, 4, 3), np.nan))
-        calls = [("info", {}, True), ("detect", {"cloud": scene}, True), ("detect", {"cloud": unusable}, False),
-                 ("enable", {"data": True}, True), ("save_codebook", {"path": "saved.sks", "overwrite": True}, True),
-                 ("save_codebook", {"path": "/etc/passwd"}, False), ("load_codebook", {"path": "replaced.sks"}, True),
-                 ("load_codebook", {"path": "missing.sks"}, False), ("remove_object", {"object": "nothing"}, False),
-                 ("cancel_training", {}, False), ("train", {"dataset": "missing.yaml"}, False),
-                 ("capture_view", {"object": "../thing", "timeout": 0.1}, False)]
+        return [("info", {}, True), ("detect", {"cloud": scene}, True), ("detect", {"cloud": unusable}, False),
+                ("enable", {"data": True}, True), ("save_codebook", {"path": "saved.sks", "overwrite": True}, True),
+                ("save_codebook", {"path": "/etc/passwd"}, False), ("load_codebook", {"path": "replaced.sks"}, True),
+                ("load_codebook", {"path": "missing.sks"}, False), ("remove_object", {"object": "nothing"}, False),
+                ("cancel_training", {}, False), ("train", {"dataset": "missing.yaml"}, False),
+                ("capture_view", {"object": "../thing", "timeout": 0.1}, False)]
 
-        def call(number):
-            service, fields, good = calls[number % len(calls)]
-            proxy = rospy.ServiceProxy("/detector/" + service, services_support.TYPES[service])  # one is for one thread
-            reply = self.ask(proxy, **fields)
-            if "training" in reply.message:  # one that is about to fail: it refuses others, or is cancelled
-                return []
-            return [] if reply.success == good and reply.message else [(service, reply.message)]
-
+    def storm(self, client):
+        """100 clients at once and frames meanwhile; a client returns the replies to its calls, each with what was
+        expected of it."""
         with Frames(self.source) as frames:
             before = len(frames.answers)
             with ThreadPoolExecutor(100) as pool:
-                wrong = list(itertools.chain.from_iterable(pool.map(call, range(1000))))
+                replies = list(itertools.chain.from_iterable(pool.map(client, range(100))))
             support.wait_for(lambda: len(frames.answers) > before + 3, "frames meanwhile")
-        self.assertEqual(wrong, [])
-        self.assertLessEqual(len(self.lost_connections), 10)
+        self.assertEqual(len(replies), 1000)
+        for service, reply, good in replies:
+            if "training" not in reply.message:  # one that is about to fail: it refuses others, or is cancelled
+                self.assertEqual(reply.success, good, (service, reply.message))
+                self.assertTrue(reply.message, service)
         for answer in frames.answers:
             self.expect_objects(["round", "thing"], answer)
         self.assertEqual(self.succeed("info").codebook, self.loaded)
+
+    def test_a_thousand_calls_in_parallel_with_frames(self):
+        calls, connections = self.calls(), Connections()
+
+        def client(number):
+            service, fields, good = calls[number % len(calls)]
+            proxy = connections.open("/detector/" + service, services_support.TYPES[service])
+            return [(service, proxy(**fields), good) for _ in range(10)]
+
+        with connections:
+            self.storm(client)
+
+    def test_a_thousand_calls_over_connections_of_their_own(self):
+        """roscpp loses some of these before the node sees them (docs/reliability.md): asked again, few and counted."""
+        calls, lost = self.calls(), []
+
+        def ask(service, fields):
+            proxy = rospy.ServiceProxy("/detector/" + service, services_support.TYPES[service])
+            try:
+                return proxy(**fields)
+            except rospy.ServiceException as error:
+                self.assertIn("unable to receive data", str(error))
+                lost.append(service)
+                return proxy(**fields)
+
+        def client(number):
+            chosen = [calls[(10 * number + i) % len(calls)] for i in range(10)]
+            return [(service, ask(service, fields), good) for service, fields, good in chosen]
+
+        self.storm(client)
+        self.assertLessEqual(len(lost), 10)
 
     def test_a_storm_of_reconfigurations(self):
         """Good sets and bad ones from many sides: what is in force, told and on the parameter server is one."""
@@ -109,19 +147,22 @@ class FaultyServicesTest(services_support.ServicesTest):
                                    DoubleParameter("tf_timeout", 1.0 + number % 7)],
                           bools=[BoolParameter("always_on", number % 2 == 0)])
 
-        def call(number):
-            config = self.ask(rospy.ServiceProxy("/detector/set_parameters", Reconfigure), parameters(number)).config
-            return {d.name: d.value for d in config.doubles}
+        def client(first):
+            proxy = connections.open("/detector/set_parameters", Reconfigure)
+            configs = [proxy(parameters(number)).config for number in range(first, 500, 20)]
+            return [{d.name: d.value for d in config.doubles} for config in configs]
 
-        with Frames(self.source) as frames, ThreadPoolExecutor(20) as pool:
-            replies = list(pool.map(call, range(500)))
+        with Connections() as connections, Frames(self.source) as frames:
+            with ThreadPoolExecutor(20) as pool:
+                replies = list(itertools.chain.from_iterable(pool.map(client, range(20))))
             before = len(frames.answers)
             support.wait_for(lambda: len(frames.answers) > before + 3, "frames afterwards")
-        self.assertLessEqual(len(self.lost_connections), 5)
+        self.assertEqual(len(replies), 500)
         pairs = {(round(r["keypoints.discard"], 3), r["tf_timeout"]) for r in replies}
         asked = {(round(d[0].value, 3), d[1].value) for d in (parameters(n).doubles for n in range(500))}
         self.assertLessEqual(pairs - {(0.5, 0.2)}, asked, "no mixture of two sets, nor a refused one")
-        last = call(1)
+        config = rospy.ServiceProxy("/detector/set_parameters", Reconfigure)(parameters(1)).config
+        last = {d.name: d.value for d in config.doubles}
         self.assertEqual(rospy.get_param("/detector/keypoints/discard"), last["keypoints.discard"])
         self.assertEqual(rospy.get_param("/detector/tf_timeout"), last["tf_timeout"])
         for answer in frames.answers:
