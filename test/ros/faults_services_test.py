@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Storms of requests while frames flow, and codebook files that change under the node."""
+import contextlib
 import itertools
 import os
 import shutil
@@ -50,24 +51,10 @@ class Frames(threading.Thread):
             raise self._failure
 
 
-class Connections:
-    """Persistent connections to services, one per thread; all are closed at the end, since roscpp may lose a new one
-    while it closes an old one (docs/reliability.md)."""
-
-    def __init__(self):
-        self._proxies = []
-
-    def open(self, service, kind):
-        proxy = rospy.ServiceProxy(service, kind, persistent=True)
-        self._proxies.append(proxy)
-        return proxy
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        for proxy in self._proxies:
-            proxy.close()
+def connect(connections, service, kind):
+    """A persistent connection, for one thread, that an ExitStack closes when all calls are done: roscpp may lose a new
+    connection while it closes an old one (docs/reliability.md)."""
+    return connections.enter_context(contextlib.closing(rospy.ServiceProxy(service, kind, persistent=True)))
 
 
 class FaultyServicesTest(services_support.ServicesTest):
@@ -109,14 +96,14 @@ class FaultyServicesTest(services_support.ServicesTest):
         self.assertEqual(self.succeed("info").codebook, self.loaded)
 
     def test_a_thousand_calls_in_parallel_with_frames(self):
-        calls, connections = self.calls(), Connections()
+        calls = self.calls()
 
         def client(number):
             service, fields, good = calls[number % len(calls)]
-            proxy = connections.open("/detector/" + service, services_support.TYPES[service])
+            proxy = connect(connections, "/detector/" + service, services_support.TYPES[service])
             return [(service, proxy(**fields), good) for _ in range(10)]
 
-        with connections:
+        with contextlib.ExitStack() as connections:
             self.storm(client)
 
     def test_a_thousand_calls_over_connections_of_their_own(self):
@@ -148,11 +135,11 @@ class FaultyServicesTest(services_support.ServicesTest):
                           bools=[BoolParameter("always_on", number % 2 == 0)])
 
         def client(first):
-            proxy = connections.open("/detector/set_parameters", Reconfigure)
+            proxy = connect(connections, "/detector/set_parameters", Reconfigure)
             configs = [proxy(parameters(number)).config for number in range(first, 500, 20)]
             return [{d.name: d.value for d in config.doubles} for config in configs]
 
-        with Connections() as connections, Frames(self.source) as frames:
+        with contextlib.ExitStack() as connections, Frames(self.source) as frames:
             with ThreadPoolExecutor(20) as pool:
                 replies = list(itertools.chain.from_iterable(pool.map(client, range(20))))
             before = len(frames.answers)
