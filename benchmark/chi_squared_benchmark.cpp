@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // How near the chi squared kernel comes to what a core can do: the same arithmetic on registers alone.
-#include "core/chi_squared.hpp"
+#include "core/matching/chi_squared.hpp"
 #include "pair.hpp"
 
 #undef HWY_TARGET_INCLUDE

@@ -6,9 +6,9 @@
 #include <pcl/features/shot_omp.h>
 #include <pcl/search/kdtree.h>
 
-#include <sks_detector/descriptors.hpp>
-#include <sks_detector/sanitize.hpp>
+#include <sks_detector/stages/descriptors.hpp>
 
+#include "core/surface/sanitize.hpp"
 #include "pair.hpp"
 #include "pcl_clouds.hpp"
 #include "peak.hpp"

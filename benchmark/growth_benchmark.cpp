@@ -7,7 +7,7 @@
 
 #include <unistd.h>
 
-#include <sks_detector/matching.hpp>
+#include <sks_detector/stages/matching.hpp>
 
 #include "pair.hpp"
 #include "recorded_words.hpp"

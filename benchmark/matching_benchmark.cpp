@@ -4,7 +4,7 @@
 
 #include <flann/flann.hpp>
 
-#include <sks_detector/matching.hpp>
+#include <sks_detector/stages/matching.hpp>
 
 #include "pair.hpp"
 #include "recorded_words.hpp"

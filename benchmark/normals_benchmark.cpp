@@ -4,10 +4,10 @@
 
 #include <pcl/features/normal_3d_omp.h>
 
-#include <sks_detector/sanitize.hpp>
-#include <sks_detector/surface.hpp>
+#include <sks_detector/stages/surface.hpp>
 
-#include "core/image_normals.hpp"
+#include "core/surface/image_normals.hpp"
+#include "core/surface/sanitize.hpp"
 #include "pair.hpp"
 #include "pcl_clouds.hpp"
 #include "recorded_scenes.hpp"

@@ -8,11 +8,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include <sks_detector/dataset.hpp>
 #include <sks_detector/detector.hpp>
 #include <sks_detector/settings_file.hpp>
 #include <sks_detector/trainer.hpp>
 
+#include "io/dataset.hpp"
 #include "recorded_scenes.hpp"
 
 namespace sks::bench {

@@ -7,11 +7,11 @@
 
 #include <benchmark/benchmark.h>
 
-#include <sks_detector/dataset.hpp>
-#include <sks_detector/matching.hpp>
-#include <sks_detector/sanitize.hpp>
+#include <sks_detector/stages/matching.hpp>
 #include <sks_detector/trainer.hpp>
 
+#include "core/surface/sanitize.hpp"
+#include "io/dataset.hpp"
 #include "pair.hpp"
 #include "recorded_scenes.hpp"
 

@@ -2,8 +2,8 @@
 // A coloured, organised VGA cloud of ten objects on a table.
 #include <benchmark/benchmark.h>
 
-#include <sks_detector/simulation/renderer.hpp>
-#include <sks_detector/simulation/shapes.hpp>
+#include "simulation/renderer.hpp"
+#include "simulation/shapes.hpp"
 
 namespace {
 

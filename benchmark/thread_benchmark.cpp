@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The stages from the cloud to the descriptors, each with one thread ("theirs") and with two.
-#include <sks_detector/descriptors.hpp>
-#include <sks_detector/sanitize.hpp>
+#include <sks_detector/stages/descriptors.hpp>
 
+#include "core/surface/sanitize.hpp"
 #include "pair.hpp"
 #include "recorded_scenes.hpp"
 

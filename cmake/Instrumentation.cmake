@@ -23,7 +23,7 @@ elseif(NOT SKS_INSTRUMENT STREQUAL "")
 endif()
 if(SKS_INSTRUMENT STREQUAL "fuzz")
   # Comparisons are traced where text and bytes are taken apart; the mathematics would only be slowed down by it.
-  file(GLOB sks_untraced src/core/*.cpp src/simulation/*.cpp)
+  file(GLOB sks_untraced src/core/*/*.cpp src/simulation/*.cpp)
   set_source_files_properties(${sks_untraced} PROPERTIES COMPILE_OPTIONS -fno-sanitize-coverage=trace-cmp)
 endif()
 if(sks_instrument_flags)

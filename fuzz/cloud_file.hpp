@@ -5,8 +5,8 @@
 #include <cstdint>
 
 #include <sks_detector/cloud_io.hpp>
-#include <sks_detector/sanitize.hpp>
 
+#include "core/surface/sanitize.hpp"
 #include "memory_file.hpp"
 #include "refused.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Codebook files: what is accepted is sound, and can be edited and stored.
-#include <sks_detector/codebook_edit.hpp>
+#include "core/pipeline/codebook_edit.hpp"
 
 #include "codebook_file.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Data set files, and what training and evaluation do with them first.
-#include <sks_detector/dataset.hpp>
+#include "io/dataset.hpp"
 
 #include "memory_file.hpp"
 #include "refused.hpp"

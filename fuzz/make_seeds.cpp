@@ -7,9 +7,9 @@
 
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/codebook_file.hpp>
-#include <sks_detector/file.hpp>
 #include <sks_detector/settings_file.hpp>
 
+#include "io/file.hpp"
 #include "seed_texts.hpp"
 #include "small_codebook.hpp"
 #if __has_include(<sensor_msgs/PointCloud2.h>)

@@ -5,11 +5,11 @@
 #include <filesystem>
 #include <string>
 
-#include <sks_detector/captured_views.hpp>
-#include <sks_detector/codebook_edit.hpp>
-#include <sks_detector/confined_path.hpp>
 #include <sks_detector/settings.hpp>
 
+#include "core/pipeline/codebook_edit.hpp"
+#include "io/captured_views.hpp"
+#include "io/confined_path.hpp"
 #include "refused.hpp"
 #include "ros/configuration.hpp"
 #include "ros/training_set.hpp"

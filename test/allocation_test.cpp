@@ -6,15 +6,15 @@
 
 #include <gtest/gtest.h>
 
-#include <sks_detector/descriptors.hpp>
-#include <sks_detector/matching.hpp>
-#include <sks_detector/refinement.hpp>
-#include <sks_detector/sanitize.hpp>
+#include <sks_detector/stages/descriptors.hpp>
+#include <sks_detector/stages/matching.hpp>
 
-#include "core/image_normals.hpp"
-#include "core/pose_evidence.hpp"
-#include "core/projective_refinement.hpp"
-#include "core/vote_density.hpp"
+#include "core/surface/image_normals.hpp"
+#include "core/surface/sanitize.hpp"
+#include "core/verification/pose_evidence.hpp"
+#include "core/verification/projective_refinement.hpp"
+#include "core/verification/refinement.hpp"
+#include "core/voting/vote_density.hpp"
 #include "synthetic.hpp"
 #include "training_samples.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/captured_views.hpp>
+#include "io/captured_views.hpp"
 
 #include <filesystem>
 
@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <sks_detector/cloud_io.hpp>
-#include <sks_detector/file.hpp>
 
 #include "error_of.hpp"
+#include "io/file.hpp"
 #include "synthetic.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/classification.hpp>
+#include "evaluation/classification.hpp"
 
 #include <cmath>
 #include <map>

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include <sks_detector/cloud_io.hpp>
-#include <sks_detector/file.hpp>
 
+#include "io/file.hpp"
 #include "recorded_data.hpp"
 #include "run_sks.hpp"
 #include "synthetic.hpp"

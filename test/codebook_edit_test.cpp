@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/codebook_edit.hpp>
+#include "core/pipeline/codebook_edit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,13 +9,13 @@
 
 #include <gtest/gtest.h>
 
-#include <sks_detector/file.hpp>
 #include <sks_detector/settings_file.hpp>
 
 #include "codebook_generated.h"
 #include "error_of.hpp"
 #include "io/codebook_layout.hpp"
 #include "io/crc32c.hpp"
+#include "io/file.hpp"
 #include "temporary_folder.hpp"
 
 namespace {

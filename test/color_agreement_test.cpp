@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/color_agreement.hpp"
+#include "core/verification/color_agreement.hpp"
 
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
-#include "core/pose_evidence.hpp"
+#include "core/verification/pose_evidence.hpp"
 #include "prepared.hpp"
 #include "synthetic.hpp"
 #include "training_samples.hpp"

@@ -15,10 +15,10 @@
 #include <nlohmann/json.hpp>
 
 #include <sks_detector/cloud_io.hpp>
-#include <sks_detector/file.hpp>
 #include <sks_detector/settings_file.hpp>
 
 #include "bumps.hpp"
+#include "io/file.hpp"
 #include "run_sks.hpp"
 #include "temporary_folder.hpp"
 

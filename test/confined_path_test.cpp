@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/confined_path.hpp>
+#include "io/confined_path.hpp"
 
 #include <filesystem>
 

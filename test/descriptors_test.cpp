@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/descriptors.hpp>
+#include <sks_detector/stages/descriptors.hpp>
 
 #include <cmath>
 

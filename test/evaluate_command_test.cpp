@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include <sks_detector/cloud_io.hpp>
-#include <sks_detector/file.hpp>
 
 #include "bumps.hpp"
+#include "io/file.hpp"
 #include "recorded_data.hpp"
 #include "run_sks.hpp"
 #include "temporary_folder.hpp"

@@ -16,14 +16,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <sks_detector/captured_views.hpp>
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
 
 #include "bumps.hpp"
 #include "error_of.hpp"
+#include "io/captured_views.hpp"
+#include "io/file.hpp"
 #include "temporary_folder.hpp"
 
 #ifdef SKS_EXECUTABLE

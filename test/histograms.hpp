@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include <sks_detector/descriptors.hpp>
+#include <sks_detector/stages/descriptors.hpp>
 
 namespace sks::test {
 

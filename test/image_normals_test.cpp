@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/image_normals.hpp"
+#include "core/surface/image_normals.hpp"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include <sks_detector/sanitize.hpp>
-#include <sks_detector/surface.hpp>
+#include <sks_detector/stages/surface.hpp>
 
-#include "core/pinhole_fit.hpp"
+#include "core/surface/pinhole_fit.hpp"
+#include "core/surface/sanitize.hpp"
 #include "synthetic.hpp"
 
 namespace {

@@ -6,8 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sks_detector/dataset.hpp>
-
+#include "io/dataset.hpp"
 #include "run_sks.hpp"
 #include "temporary_folder.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/keypoint_study.hpp>
+#include "evaluation/keypoint_study.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

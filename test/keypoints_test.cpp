@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/keypoints.hpp>
+#include <sks_detector/stages/keypoints.hpp>
 
 #include <cmath>
 #include <map>

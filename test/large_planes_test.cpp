@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/large_planes.hpp"
+#include "core/keypoints/large_planes.hpp"
 
 #include <cmath>
 

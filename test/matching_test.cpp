@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/matching.hpp>
+#include <sks_detector/stages/matching.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -9,8 +9,8 @@
 
 #include <gmock/gmock.h>
 
-#include "core/bound_cascade.hpp"
-#include "core/chi_squared.hpp"
+#include "core/matching/bound_cascade.hpp"
+#include "core/matching/chi_squared.hpp"
 #include "error_of.hpp"
 #include "histograms.hpp"
 

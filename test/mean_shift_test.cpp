@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/mean_shift.hpp>
+#include "core/voting/mean_shift.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -8,9 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <sks_detector/file.hpp>
-
 #include "error_of.hpp"
+#include "io/file.hpp"
 #include "temporary_folder.hpp"
 
 namespace sks::baselines {

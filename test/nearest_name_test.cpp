@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "io/nearest_name.hpp"
+#include "core/settings/nearest_name.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <pcl/features/normal_3d.h>
 #include <pcl/search/kdtree.h>
 
-#include <sks_detector/surface.hpp>
+#include <sks_detector/stages/surface.hpp>
 
 #include "bumps.hpp"
 #include "pcl_clouds.hpp"

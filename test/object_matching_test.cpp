@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/object_matching.hpp>
+#include "core/matching/object_matching.hpp"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
-#include <sks_detector/surface.hpp>
+#include <sks_detector/stages/surface.hpp>
 
 namespace sks::test {
 

@@ -6,10 +6,9 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include <sks_detector/file.hpp>
-
 #include "bumps.hpp"
 #include "error_of.hpp"
+#include "io/file.hpp"
 #include "temporary_folder.hpp"
 #include "tools/point_image.hpp"
 #include "tools/render.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/point_grid.hpp>
+#include <sks_detector/stages/point_grid.hpp>
 
 #include <algorithm>
 #include <limits>

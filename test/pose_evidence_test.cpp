@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/pose_evidence.hpp"
+#include "core/verification/pose_evidence.hpp"
 
 #include <algorithm>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <sks_detector/sanitize.hpp>
-#include <sks_detector/surface.hpp>
+#include <sks_detector/stages/surface.hpp>
+
+#include "core/surface/sanitize.hpp"
 
 namespace sks::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/projective_refinement.hpp"
+#include "core/verification/projective_refinement.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/range_image.hpp"
+#include "core/verification/range_image.hpp"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/ransac.hpp"
+#include "core/voting/ransac.hpp"
 
 #include <gtest/gtest.h>
 
-#include <sks_detector/hypothesis.hpp>
+#include <sks_detector/stages/hypothesis.hpp>
 
 #include "synthetic.hpp"
 

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <sks_detector/cloud_io.hpp>
-#include <sks_detector/dataset.hpp>
 
+#include "io/dataset.hpp"
 #include "recorded_data.hpp"
 
 namespace sks {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/refinement.hpp>
+#include "core/verification/refinement.hpp"
 
 #include <gtest/gtest.h>
 

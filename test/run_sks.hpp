@@ -10,8 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <sks_detector/file.hpp>
-
+#include "io/file.hpp"
 #include "temporary_folder.hpp"
 
 namespace sks::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/sanitize.hpp>
+#include "core/surface/sanitize.hpp"
 
 #include <limits>
 

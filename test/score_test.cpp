@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/score.hpp"
+#include "core/verification/score.hpp"
 
 #include <gtest/gtest.h>
 

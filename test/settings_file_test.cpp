@@ -5,9 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include <sks_detector/file.hpp>
-
 #include "error_of.hpp"
+#include "io/file.hpp"
 #include "temporary_folder.hpp"
 
 namespace {

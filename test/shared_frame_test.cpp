@@ -6,12 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <sks_detector/codebook_file.hpp>
-#include <sks_detector/dataset.hpp>
-#include <sks_detector/hypothesis.hpp>
-#include <sks_detector/scene_matching.hpp>
+#include <sks_detector/stages/hypothesis.hpp>
 
 #include "bumps.hpp"
 #include "error_of.hpp"
+#include "evaluation/scene_matching.hpp"
+#include "io/dataset.hpp"
 #include "synthetic.hpp"
 #include "temporary_folder.hpp"
 

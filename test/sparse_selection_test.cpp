@@ -9,10 +9,10 @@
 #include <pcl/search/kdtree.h>
 #include <Eigen/Eigenvalues>
 
-#include <sks_detector/keypoints.hpp>
+#include <sks_detector/stages/keypoints.hpp>
 
 #include "bumps.hpp"
-#include "core/otsu.hpp"
+#include "core/keypoints/otsu.hpp"
 #include "pcl_clouds.hpp"
 #include "synthetic.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/surface.hpp>
+#include <sks_detector/stages/surface.hpp>
 
 #include <cmath>
 #include <map>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "bumps.hpp"
-#include "core/color_space.hpp"
+#include "core/surface/color_space.hpp"
 #include "error_of.hpp"
 #include "synthetic.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/tabletop.hpp>
+#include "core/capture/tabletop.hpp"
 
 #include <cmath>
 #include <limits>

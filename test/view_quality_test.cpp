@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/view_quality.hpp>
+#include "core/capture/view_quality.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/voting.hpp>
+#include <sks_detector/stages/voting.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/word_codes.hpp"
+#include "core/matching/word_codes.hpp"
 
 #include <numeric>
 
 #include <gtest/gtest.h>
 
-#include "core/merged_words.hpp"
+#include "core/matching/merged_words.hpp"
 #include "histograms.hpp"
 
 using sks::test::Rows;

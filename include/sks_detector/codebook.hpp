@@ -9,8 +9,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include <sks_detector/descriptors.hpp>
 #include <sks_detector/settings.hpp>
+#include <sks_detector/stages/descriptors.hpp>
 
 namespace sks {
 

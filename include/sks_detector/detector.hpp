@@ -6,8 +6,9 @@
 #include <sks_detector/cloud.hpp>
 #include <sks_detector/codebook.hpp>
 #include <sks_detector/detection.hpp>
-#include <sks_detector/object_matching.hpp>
 #include <sks_detector/settings.hpp>
+
+#include "core/matching/object_matching.hpp"
 
 namespace sks {
 

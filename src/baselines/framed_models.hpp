@@ -11,7 +11,7 @@
 
 #include <sks_detector/codebook.hpp>
 
-#include "core/scene_description.hpp"
+#include "core/pipeline/scene_description.hpp"
 
 namespace sks::baselines {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "baselines/hypotheses.hpp"
 #include "baselines/pcl_global_verification.hpp"
-#include "core/range_image.hpp"
+#include "core/verification/range_image.hpp"
 
 namespace sks::baselines {
 namespace {

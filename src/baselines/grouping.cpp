@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include <sks_detector/hypothesis.hpp>
+#include <sks_detector/stages/hypothesis.hpp>
 
 namespace sks::baselines {
 namespace {

@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include <sks_detector/refinement.hpp>
+#include "core/verification/refinement.hpp"
 
 namespace sks::baselines {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <sks_detector/codebook.hpp>
-#include <sks_detector/hypothesis.hpp>
-#include <sks_detector/surface.hpp>
+#include <sks_detector/stages/hypothesis.hpp>
+#include <sks_detector/stages/surface.hpp>
 
 #include "baselines/grouping.hpp"
 

@@ -6,9 +6,9 @@
 
 #include <sks_detector/error.hpp>
 
-#include "core/value_text.hpp"
-#include "core/visit_settings.hpp"
-#include "io/nearest_name.hpp"
+#include "core/settings/nearest_name.hpp"
+#include "core/settings/value_text.hpp"
+#include "core/settings/visit_settings.hpp"
 
 namespace sks::baselines {
 namespace {

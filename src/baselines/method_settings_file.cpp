@@ -6,10 +6,10 @@
 #include <yaml-cpp/yaml.h>
 
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
 #include <sks_detector/settings_file.hpp>
 
 #include "baselines/method_settings.hpp"
+#include "io/file.hpp"
 
 namespace sks::baselines {
 namespace {

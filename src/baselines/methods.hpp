@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include <sks_detector/classification.hpp>
 #include <sks_detector/codebook.hpp>
-#include <sks_detector/evaluation.hpp>
 #include <sks_detector/settings.hpp>
 
 #include "baselines/method_settings.hpp"
+#include "evaluation/classification.hpp"
+#include "evaluation/evaluation.hpp"
 
 namespace sks::baselines {
 

@@ -6,7 +6,7 @@
 #include <sks_detector/codebook.hpp>
 
 #include "baselines/hypotheses.hpp"
-#include "core/isolated_object.hpp"
+#include "core/pipeline/isolated_object.hpp"
 
 namespace sks::baselines {
 

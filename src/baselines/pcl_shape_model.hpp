@@ -15,7 +15,7 @@
 #include <pcl/point_types.h>
 #include <pcl/recognition/implicit_shape_model.h>
 
-#include <sks_detector/descriptors.hpp>
+#include <sks_detector/stages/descriptors.hpp>
 
 namespace sks::baselines {
 

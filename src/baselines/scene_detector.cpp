@@ -3,8 +3,8 @@
 
 #include <utility>
 
-#include "core/scene_description.hpp"
-#include "core/stopwatch.hpp"
+#include "core/pipeline/scene_description.hpp"
+#include "core/pipeline/stopwatch.hpp"
 
 namespace sks::baselines {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <sks_detector/cloud.hpp>
 #include <sks_detector/detection.hpp>
-#include <sks_detector/matching.hpp>
+#include <sks_detector/stages/matching.hpp>
 
 #include "baselines/hypotheses.hpp"
 

@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "baselines/hough_grouping.hpp"
-#include "core/ransac.hpp"
+#include "core/voting/ransac.hpp"
 
 namespace sks::baselines {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/evaluation.hpp>
+#include "evaluation/evaluation.hpp"
 
 #include <numeric>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/keypoint_study.hpp>
-#include <sks_detector/matching.hpp>
+#include <sks_detector/stages/matching.hpp>
 
-#include "core/ransac.hpp"
+#include "core/voting/ransac.hpp"
+#include "evaluation/keypoint_study.hpp"
 
 namespace sks {
 

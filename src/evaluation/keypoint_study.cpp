@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/keypoint_study.hpp>
+#include "evaluation/keypoint_study.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@
 
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
-#include <sks_detector/metrics.hpp>
-#include <sks_detector/sanitize.hpp>
-#include <sks_detector/surface.hpp>
+#include <sks_detector/stages/surface.hpp>
 
-#include "core/scene_description.hpp"
-#include "core/stopwatch.hpp"
+#include "core/pipeline/scene_description.hpp"
+#include "core/pipeline/stopwatch.hpp"
+#include "core/surface/sanitize.hpp"
+#include "evaluation/metrics.hpp"
 
 namespace sks {
 namespace {

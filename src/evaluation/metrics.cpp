@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/metrics.hpp>
+#include "evaluation/metrics.hpp"
 
 #include <algorithm>
 #include <cmath>

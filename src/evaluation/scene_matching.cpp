@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/scene_matching.hpp>
+#include "evaluation/scene_matching.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/captured_views.hpp>
+#include "io/captured_views.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -7,10 +7,10 @@
 #include <filesystem>
 
 #include <sks_detector/cloud_io.hpp>
-#include <sks_detector/confined_path.hpp>
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
 
+#include "io/confined_path.hpp"
+#include "io/file.hpp"
 #include "io/yaml_text.hpp"
 
 namespace sks {

@@ -10,7 +10,7 @@
 
 #include <sks_detector/error.hpp>
 
-#include "core/value_text.hpp"
+#include "core/settings/value_text.hpp"
 #include "io/atomic_file.hpp"
 #include "io/header_lines.hpp"
 #include "io/pcd_file.hpp"

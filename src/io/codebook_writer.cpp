@@ -6,7 +6,7 @@
 #include <sks_detector/settings_file.hpp>
 
 #include "codebook_generated.h"
-#include "core/value_text.hpp"
+#include "core/settings/value_text.hpp"
 #include "io/atomic_file.hpp"
 #include "io/codebook_layout.hpp"
 #include "io/crc32c.hpp"

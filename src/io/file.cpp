@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/file.hpp>
+#include "io/file.hpp"
 
 #include <algorithm>
 #include <cerrno>

@@ -5,7 +5,7 @@
 
 #include <sks_detector/error.hpp>
 
-#include "core/value_text.hpp"
+#include "core/settings/value_text.hpp"
 #include "io/header_lines.hpp"
 #include "io/pcd_file.hpp"
 

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
 
-#include "core/value_text.hpp"
+#include "core/settings/value_text.hpp"
+#include "io/file.hpp"
 #include "io/yaml_text.hpp"
 
 namespace sks {

@@ -8,7 +8,7 @@
 
 #include <sks_detector/error.hpp>
 
-#include "io/nearest_name.hpp"
+#include "core/settings/nearest_name.hpp"
 
 namespace sks {
 namespace {

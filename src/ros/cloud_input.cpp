@@ -5,7 +5,7 @@
 
 #include <sks_detector/error.hpp>
 
-#include "core/value_text.hpp"
+#include "core/settings/value_text.hpp"
 
 namespace sks_detector {
 namespace {

@@ -6,12 +6,12 @@
 
 #include <boost/make_shared.hpp>
 
-#include <sks_detector/confined_path.hpp>
 #include <sks_detector/error.hpp>
-#include <sks_detector/tabletop.hpp>
-#include <sks_detector/view_quality.hpp>
 
-#include "core/value_text.hpp"
+#include "core/capture/tabletop.hpp"
+#include "core/capture/view_quality.hpp"
+#include "core/settings/value_text.hpp"
+#include "io/confined_path.hpp"
 
 namespace sks_detector {
 namespace {

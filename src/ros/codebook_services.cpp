@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <memory>
 
-#include <sks_detector/codebook_edit.hpp>
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/error.hpp>
 #include <sks_detector/settings_file.hpp>
 
-#include "io/nearest_name.hpp"
+#include "core/pipeline/codebook_edit.hpp"
+#include "core/settings/nearest_name.hpp"
 #include "ros/folders.hpp"
 
 namespace sks_detector {

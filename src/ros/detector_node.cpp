@@ -8,7 +8,7 @@
 
 #include <sks_detector/codebook_file.hpp>
 
-#include "core/value_text.hpp"
+#include "core/settings/value_text.hpp"
 
 namespace sks_detector {
 namespace {

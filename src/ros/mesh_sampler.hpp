@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <sks_detector/dataset.hpp>
+#include "io/dataset.hpp"
 
 namespace sks_detector {
 

@@ -5,7 +5,7 @@
 
 #include <sks_detector/error.hpp>
 
-#include "core/edit_distance.hpp"
+#include "core/settings/edit_distance.hpp"
 
 namespace sks_detector {
 namespace {

@@ -7,8 +7,8 @@
 
 #include <sks_detector/settings.hpp>
 
-#include "core/value_text.hpp"
-#include "core/visit_settings.hpp"
+#include "core/settings/value_text.hpp"
+#include "core/settings/visit_settings.hpp"
 
 namespace sks_detector {
 

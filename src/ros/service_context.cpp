@@ -8,9 +8,9 @@
 #include <ros/console.h>
 
 #include <sks_detector/codebook_file.hpp>
-#include <sks_detector/confined_path.hpp>
 #include <sks_detector/error.hpp>
 
+#include "io/confined_path.hpp"
 #include "ros/folders.hpp"
 
 namespace sks_detector {

@@ -4,8 +4,7 @@
 #include <mutex>
 #include <string>
 
-#include <sks_detector/captured_views.hpp>
-
+#include "io/captured_views.hpp"
 #include "ros/background_job.hpp"
 #include "ros/detector_slot.hpp"
 #include "ros/services.hpp"

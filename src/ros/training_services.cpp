@@ -9,11 +9,11 @@
 
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
 #include <sks_detector/trainer.hpp>
 
-#include "core/stopwatch.hpp"
-#include "core/value_text.hpp"
+#include "core/pipeline/stopwatch.hpp"
+#include "core/settings/value_text.hpp"
+#include "io/file.hpp"
 #include "ros/folders.hpp"
 #include "ros/mesh_sampler.hpp"
 #include "ros/training_set.hpp"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/training_set.hpp"
 
-#include <sks_detector/confined_path.hpp>
 #include <sks_detector/error.hpp>
+
+#include "io/confined_path.hpp"
 
 namespace sks_detector {
 namespace {

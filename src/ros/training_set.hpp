@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include <sks_detector/captured_views.hpp>
-#include <sks_detector/dataset.hpp>
 #include <sks_detector/trainer.hpp>
+
+#include "io/captured_views.hpp"
+#include "io/dataset.hpp"
 
 namespace sks_detector {
 

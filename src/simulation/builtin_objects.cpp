@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/simulation/builtin_objects.hpp>
+#include "simulation/builtin_objects.hpp"
 
 #include <sks_detector/error.hpp>
 

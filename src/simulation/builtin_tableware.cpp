@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include <sks_detector/simulation/shapes.hpp>
-
 #include "simulation/builtin_shapes.hpp"
+#include "simulation/shapes.hpp"
 
 namespace sks {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/simulation/mesh_symmetry.hpp>
+#include "simulation/mesh_symmetry.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/simulation/renderer.hpp>
+#include "simulation/renderer.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/simulation/scene.hpp>
+#include "simulation/scene.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include <sks_detector/error.hpp>
-#include <sks_detector/simulation/shapes.hpp>
 #include <sks_detector/simulation/training_views.hpp>
 
 #include "simulation/pixel_random.hpp"
+#include "simulation/shapes.hpp"
 #include "simulation/table_physics.hpp"
 
 namespace sks {

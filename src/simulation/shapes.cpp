@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/simulation/shapes.hpp>
+#include "simulation/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include <sks_detector/error.hpp>
-#include <sks_detector/simulation/renderer.hpp>
-#include <sks_detector/simulation/shapes.hpp>
+
+#include "simulation/renderer.hpp"
+#include "simulation/shapes.hpp"
 
 namespace sks {
 namespace {

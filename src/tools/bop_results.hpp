@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include <sks_detector/dataset.hpp>
-#include <sks_detector/evaluation.hpp>
+#include "evaluation/evaluation.hpp"
+#include "io/dataset.hpp"
 
 namespace sks::tools {
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/classification_report.hpp"
 
-#include <sks_detector/evaluation.hpp>
-
+#include "evaluation/evaluation.hpp"
 #include "tools/detection_json.hpp"
 #include "tools/settings_json.hpp"
 #include "tools/table.hpp"

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <sks_detector/classification.hpp>
+#include "evaluation/classification.hpp"
 
 namespace sks::tools {
 

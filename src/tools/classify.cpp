@@ -2,10 +2,10 @@
 #include <memory>
 #include <set>
 
-#include <sks_detector/classification.hpp>
-#include <sks_detector/dataset.hpp>
 #include <sks_detector/settings_file.hpp>
 
+#include "evaluation/classification.hpp"
+#include "io/dataset.hpp"
 #include "tools/classification_report.hpp"
 #include "tools/codebook_options.hpp"
 #include "tools/command.hpp"

@@ -3,8 +3,9 @@
 
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
 #include <sks_detector/trainer.hpp>
+
+#include "io/file.hpp"
 
 namespace sks::tools {
 

@@ -7,10 +7,10 @@
 #include <CLI/App.hpp>
 
 #include <sks_detector/codebook.hpp>
-#include <sks_detector/dataset.hpp>
 #include <sks_detector/progress.hpp>
 #include <sks_detector/settings.hpp>
 
+#include "io/dataset.hpp"
 #include "tools/mesh_options.hpp"
 
 namespace sks::tools {

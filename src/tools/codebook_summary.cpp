@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/value_text.hpp"
+#include "core/settings/value_text.hpp"
 #include "tools/settings_json.hpp"
 #include "tools/table.hpp"
 

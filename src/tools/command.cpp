@@ -5,8 +5,9 @@
 #include <iostream>
 
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
 #include <sks_detector/settings_file.hpp>
+
+#include "io/file.hpp"
 
 namespace sks::tools {
 

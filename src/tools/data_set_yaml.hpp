@@ -4,8 +4,9 @@
 #include <string>
 #include <vector>
 
-#include <sks_detector/dataset.hpp>
 #include <sks_detector/detection.hpp>
+
+#include "io/dataset.hpp"
 
 namespace sks::tools {
 

@@ -9,7 +9,7 @@
 #include <sks_detector/detector.hpp>
 #include <sks_detector/error.hpp>
 
-#include "core/value_text.hpp"
+#include "core/settings/value_text.hpp"
 #include "tools/codebook_summary.hpp"
 #include "tools/command.hpp"
 #include "tools/detection_json.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/detection_json.hpp"
 
-#include <sks_detector/evaluation.hpp>
+#include "evaluation/evaluation.hpp"
 
 namespace sks::tools {
 namespace {

@@ -2,10 +2,10 @@
 #include <memory>
 
 #include <sks_detector/cloud_io.hpp>
-#include <sks_detector/dataset.hpp>
-#include <sks_detector/evaluation.hpp>
-#include <sks_detector/file.hpp>
 
+#include "evaluation/evaluation.hpp"
+#include "io/dataset.hpp"
+#include "io/file.hpp"
 #include "tools/bop_results.hpp"
 #include "tools/codebook_options.hpp"
 #include "tools/command.hpp"

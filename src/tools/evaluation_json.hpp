@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <sks_detector/evaluation.hpp>
+#include "evaluation/evaluation.hpp"
 
 namespace sks::tools {
 

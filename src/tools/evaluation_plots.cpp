@@ -4,8 +4,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include <sks_detector/file.hpp>
-
+#include "io/file.hpp"
 #include "tools/plot_script.hpp"
 #include "tools/scene_picture.hpp"
 

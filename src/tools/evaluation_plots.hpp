@@ -7,8 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include <sks_detector/cloud.hpp>
-#include <sks_detector/evaluation.hpp>
 #include <sks_detector/progress.hpp>
+
+#include "evaluation/evaluation.hpp"
 
 namespace sks::tools {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include <sks_detector/evaluation.hpp>
+#include "evaluation/evaluation.hpp"
 
 namespace sks::tools {
 

@@ -6,8 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include <sks_detector/metrics.hpp>
-
+#include "evaluation/metrics.hpp"
 #include "tools/detection_json.hpp"
 #include "tools/settings_json.hpp"
 #include "tools/table.hpp"

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <sks_detector/keypoint_study.hpp>
+#include "evaluation/keypoint_study.hpp"
 
 namespace sks::tools {
 

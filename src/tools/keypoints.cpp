@@ -2,10 +2,9 @@
 #include <filesystem>
 #include <memory>
 
-#include <sks_detector/dataset.hpp>
-#include <sks_detector/file.hpp>
-#include <sks_detector/keypoint_study.hpp>
-
+#include "evaluation/keypoint_study.hpp"
+#include "io/dataset.hpp"
+#include "io/file.hpp"
 #include "tools/command.hpp"
 #include "tools/keypoint_report.hpp"
 #include "tools/plot_script.hpp"

@@ -4,7 +4,7 @@
 
 #include <sks_detector/error.hpp>
 
-#include "io/nearest_name.hpp"
+#include "core/settings/nearest_name.hpp"
 #include "tools/bag.hpp"
 #include "tools/command.hpp"
 #include "tools/progress_bar.hpp"

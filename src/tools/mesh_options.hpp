@@ -6,7 +6,7 @@
 
 #include <CLI/App.hpp>
 
-#include <sks_detector/dataset.hpp>
+#include "io/dataset.hpp"
 
 namespace sks::tools {
 

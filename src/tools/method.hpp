@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include <sks_detector/classification.hpp>
 #include <sks_detector/codebook.hpp>
-#include <sks_detector/evaluation.hpp>
 #include <sks_detector/settings.hpp>
 
 #include "baselines/method_settings.hpp"
+#include "evaluation/classification.hpp"
+#include "evaluation/evaluation.hpp"
 #include "tools/command.hpp"
 
 namespace sks::tools {

@@ -11,8 +11,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
 
+#include "io/file.hpp"
 #include "tools/point_image.hpp"
 
 namespace sks::tools {

@@ -4,7 +4,8 @@
 #include <string>
 
 #include <sks_detector/cloud.hpp>
-#include <sks_detector/evaluation.hpp>
+
+#include "evaluation/evaluation.hpp"
 
 namespace sks::tools {
 

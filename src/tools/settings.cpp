@@ -3,7 +3,7 @@
 
 #include <sks_detector/settings_file.hpp>
 
-#include "core/value_text.hpp"
+#include "core/settings/value_text.hpp"
 #include "tools/command.hpp"
 #include "tools/settings_json.hpp"
 #include "tools/table.hpp"

@@ -2,12 +2,12 @@
 #include <memory>
 
 #include <sks_detector/codebook_file.hpp>
-#include <sks_detector/dataset.hpp>
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
 #include <sks_detector/trainer.hpp>
 
-#include "core/stopwatch.hpp"
+#include "core/pipeline/stopwatch.hpp"
+#include "io/dataset.hpp"
+#include "io/file.hpp"
 #include "tools/codebook_summary.hpp"
 #include "tools/command.hpp"
 #include "tools/mesh_options.hpp"

@@ -5,8 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <sks_detector/file.hpp>
-
+#include "io/file.hpp"
 #include "made_up_bag.hpp"
 #include "run_sks.hpp"
 #include "temporary_folder.hpp"

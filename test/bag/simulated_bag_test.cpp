@@ -8,9 +8,9 @@
 #include <rosbag/view.h>
 
 #include <sks_detector/cloud_io.hpp>
-#include <sks_detector/dataset.hpp>
-#include <sks_detector/file.hpp>
 
+#include "io/dataset.hpp"
+#include "io/file.hpp"
 #include "made_up_bag.hpp"
 #include "run_sks.hpp"
 #include "temporary_folder.hpp"

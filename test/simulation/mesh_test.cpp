@@ -5,9 +5,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include <sks_detector/simulation/shapes.hpp>
-
 #include "error_of.hpp"
+#include "simulation/shapes.hpp"
 #include "temporary_folder.hpp"
 
 namespace sks {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/simulation/renderer.hpp>
+#include "simulation/renderer.hpp"
 
 #include <cmath>
 #include <numeric>
@@ -7,9 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <sks_detector/simulation/shapes.hpp>
-
 #include "error_of.hpp"
+#include "simulation/shapes.hpp"
 
 namespace sks {
 namespace {

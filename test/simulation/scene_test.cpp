@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/simulation/scene.hpp>
+#include "simulation/scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,13 +7,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <sks_detector/simulation/builtin_objects.hpp>
-#include <sks_detector/simulation/mesh_symmetry.hpp>
-#include <sks_detector/simulation/shapes.hpp>
 #include <sks_detector/simulation/training_views.hpp>
 
 #include "error_of.hpp"
+#include "simulation/builtin_objects.hpp"
 #include "simulation/convex_parts.hpp"
+#include "simulation/mesh_symmetry.hpp"
+#include "simulation/shapes.hpp"
 #include "simulation/table_physics.hpp"
 
 namespace sks {

@@ -8,9 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <sks_detector/dataset.hpp>
-#include <sks_detector/file.hpp>
-
+#include "io/dataset.hpp"
+#include "io/file.hpp"
 #include "run_sks.hpp"
 #include "temporary_folder.hpp"
 

@@ -9,7 +9,7 @@
 
 #include <sks_detector/error.hpp>
 
-#include "core/value_text.hpp"
+#include "core/settings/value_text.hpp"
 #include "ros/camera/device_watch.hpp"
 #include "ros/camera/openni2_images.hpp"
 

@@ -6,8 +6,9 @@
 
 #include <ros/console.h>
 
-#include <sks_detector/simulation/builtin_objects.hpp>
 #include <sks_detector/simulation/training_views.hpp>
+
+#include "simulation/builtin_objects.hpp"
 
 namespace sks_detector {
 

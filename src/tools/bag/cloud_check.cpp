@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include <sks_detector/error.hpp>
-#include <sks_detector/sanitize.hpp>
 
+#include "core/surface/sanitize.hpp"
 #include "ros/cloud_message.hpp"
 
 namespace sks::tools {

@@ -8,8 +8,8 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include <sks_detector/cloud_io.hpp>
-#include <sks_detector/file.hpp>
 
+#include "io/file.hpp"
 #include "ros/cloud_message.hpp"
 #include "tools/bag/commands.hpp"
 #include "tools/bag/recorded_detections.hpp"

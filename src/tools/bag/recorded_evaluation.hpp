@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include <sks_detector/dataset.hpp>
-#include <sks_detector/evaluation.hpp>
-
+#include "evaluation/evaluation.hpp"
+#include "io/dataset.hpp"
 #include "tools/bag/recorded_detections.hpp"
 
 namespace sks::tools {

@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <sks_detector/metrics.hpp>
-
+#include "evaluation/metrics.hpp"
 #include "tools/table.hpp"
 
 namespace sks::tools {

@@ -7,7 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
+
+#include "io/file.hpp"
 
 namespace sks::tools {
 namespace {

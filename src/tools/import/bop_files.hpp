@@ -11,7 +11,8 @@
 #include <Eigen/Geometry>
 
 #include <sks_detector/cloud.hpp>
-#include <sks_detector/symmetry.hpp>
+
+#include "io/symmetry.hpp"
 
 namespace sks::tools {
 

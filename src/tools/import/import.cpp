@@ -4,8 +4,8 @@
 #include <memory>
 
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
 
+#include "io/file.hpp"
 #include "tools/command.hpp"
 #include "tools/import/importer.hpp"
 #include "tools/progress_bar.hpp"

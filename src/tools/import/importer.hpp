@@ -7,8 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <sks_detector/dataset.hpp>
 #include <sks_detector/progress.hpp>
+
+#include "io/dataset.hpp"
 
 namespace sks::tools {
 

@@ -4,8 +4,8 @@
 #include <sstream>
 
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
 
+#include "io/file.hpp"
 #include "tools/import/importer.hpp"
 #include "tools/import/off_mesh.hpp"
 

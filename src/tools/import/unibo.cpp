@@ -8,8 +8,8 @@
 
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
 
+#include "io/file.hpp"
 #include "tools/import/importer.hpp"
 #include "tools/import/unibo_ini.hpp"
 

@@ -8,7 +8,8 @@
 #include <sstream>
 
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
+
+#include "io/file.hpp"
 
 namespace sks::tools {
 namespace {

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <thread>
 
-#include <sks_detector/simulation/builtin_objects.hpp>
 #include <sks_detector/simulation/training_views.hpp>
 
+#include "simulation/builtin_objects.hpp"
 #include "tools/command.hpp"
 #include "tools/simulation.hpp"
 

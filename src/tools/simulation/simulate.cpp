@@ -5,9 +5,9 @@
 #include <thread>
 
 #include <sks_detector/error.hpp>
-#include <sks_detector/simulation/builtin_objects.hpp>
-#include <sks_detector/simulation/scene.hpp>
 
+#include "simulation/builtin_objects.hpp"
+#include "simulation/scene.hpp"
 #include "tools/bag.hpp"
 #include "tools/command.hpp"
 #include "tools/mesh_options.hpp"

@@ -10,9 +10,9 @@
 
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
-#include <sks_detector/file.hpp>
-#include <sks_detector/simulation/mesh_symmetry.hpp>
 
+#include "io/file.hpp"
+#include "simulation/mesh_symmetry.hpp"
 #include "tools/data_set_yaml.hpp"
 
 namespace sks::tools {

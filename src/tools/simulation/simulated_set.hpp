@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include <sks_detector/dataset.hpp>
 #include <sks_detector/detection.hpp>
-#include <sks_detector/simulation/scene.hpp>
+
+#include "io/dataset.hpp"
+#include "simulation/scene.hpp"
 
 namespace sks::tools {
 

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <sks_detector/stages/matching.hpp>
+
+#include "core/matching/merged_words.hpp"
+#include "core/matching/word_clusters.hpp"
+#include "core/matching/word_codes.hpp"
+
+namespace sks {
+
+/// Search for the codewords that are nearest under chi squared: coarse lower bounds of all words, finer ones of those
+/// that can still win, full distances of the few that are left. Exact; or, for large codebooks, only among the words of
+/// the clusters whose centers are nearest, of which those of the lowest bounds are looked at closer. Words may belong
+/// to groups (objects): then the nearest word of each group is found that is nearly as near as the nearest of all.
+class NearestWord {
+public:
+  /// The search of one query.
+  struct Search {
+    const float* histogram;
+    float factor;
+    WordCodes::CodedQuery query;
+    float best;                          // distance of any word so far
+    std::vector<float> best_of_group;    // ... of a group
+    std::vector<float> lowest_of_group;  // bound so far of a group
+    std::vector<std::uint32_t> slots;    // words that may be nearest
+    std::vector<float> bounds;           // of their distances
+  };
+
+  /// Buffers of one thread.
+  struct Workspace {
+    HellingerAxes::Projection projection;
+    std::vector<Search> searches;
+    std::vector<float> bounds;                              // of a tile of words, of several queries
+    std::vector<std::uint32_t> selected;                    // places in `bounds`
+    std::vector<float> merged;                              // bins of one query
+    std::vector<float> sorted;                              // bounds, in part
+    std::vector<float> centers;                             // distances of several queries to them
+    std::vector<std::uint64_t> visits;                      // cluster and search, to be made in this order
+    std::vector<std::pair<double, std::uint32_t>> nearest;  // distance and word of each group
+  };
+
+  /// @param group_of_word below `groups`; empty: all belong to one
+  /// @throws Error(bad_data) naming word and bin for a value that is negative or not finite
+  NearestWord(DescriptorMatrix words, bool exact, const std::vector<std::uint32_t>& group_of_word = {},
+              std::size_t groups = 1);
+
+  const DescriptorMatrix& words() const { return words_; }
+
+  /// Finds the nearest words of all queries; of equally near words the first. There must be words.
+  /// @param factor at least 1; the nearest word of a group is found where it is within this factor of the distance of
+  ///        the nearest of all
+  /// @return one for each query and group, query by query; of infinite distance where none was found
+  /// @throws Error(incompatible) if the descriptors' sizes differ
+  std::vector<Match> find(const DescriptorMatrix& queries, float factor, int threads) const;
+
+private:
+  bool exact() const { return clusters_.size() == 1; }
+  std::uint32_t groupOf(std::uint32_t slot) const { return groups_ == 1 ? 0 : group_of_slot_[slot]; }
+  const float* wordAt(std::uint32_t slot) const;
+  void remember(Search& search, std::uint32_t slot, float distance) const;
+  void measureLikely(Search& search, std::uint32_t slot, float bound) const;
+  float limitOfTile(const Search& search, std::size_t first_block) const;
+  template <typename HighestWithin>
+  void dropHopeless(Search& search, HighestWithin&& highest_within) const;
+  template <typename HighestWithin>
+  void measurePromising(Search& search, HighestWithin&& highest_within) const;
+  void find(const DescriptorMatrix& queries, std::size_t first, std::size_t count, float factor, Match* matches,
+            Workspace& work) const;
+  void start(Search& search, const float* histogram, float factor, Workspace& work) const;
+  void visitAll(std::size_t count, Workspace& work) const;
+  void visitNearest(std::size_t count, Workspace& work) const;
+  void chooseClusters(std::size_t first, std::size_t count, Workspace& work) const;
+  void visitCluster(std::size_t cluster, Search* const* searches, std::size_t count, Workspace& work) const;
+  void visit(std::size_t first_block, std::size_t blocks, Search* const* searches, std::size_t count,
+             Workspace& work) const;
+  void finish(Search& search, Match* matches, Workspace& work) const;
+
+  DescriptorMatrix words_;
+  WordCodes codes_;
+  WordClusters clusters_;
+  CodeTable table_;  // a code for each slot of the clusters
+  MergedWords merged_;
+  std::size_t groups_;
+  std::vector<std::uint32_t> group_of_slot_;                // where there are several
+  std::vector<std::vector<std::uint32_t>> groups_of_tile_;  // ... and the search is exact
+};
+
+}  // namespace sks

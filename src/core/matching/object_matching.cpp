@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/matching/object_matching.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/matching/nearest_word.hpp"
+
+namespace sks {
+namespace {
+
+constexpr double steepness = 10;         // of the weights
+constexpr double distance_floor = 1e-6;  // so that equal descriptors weigh equally
+constexpr float nothing = std::numeric_limits<float>::infinity();
+
+/// @param of_object nearest words of one query, one for each object
+void keepNearly(const Match* of_object, std::size_t objects, double ambiguity, std::vector<Match>& kept) {
+  const auto nearer = [](const Match& a, const Match& b) {
+    return std::make_pair(a.distance, a.word) < std::make_pair(b.distance, b.word);
+  };
+  const Match nearest = *std::min_element(of_object, of_object + objects, nearer);
+  if (nearest.distance == nothing) return;
+  for (std::size_t i = 0; i < objects; ++i) {
+    Match match = of_object[i];
+    const bool first = match.word == nearest.word && match.distance == nearest.distance;
+    if (!first && (ambiguity <= 1 || !(match.distance <= ambiguity * nearest.distance))) continue;
+    match.weight = float(std::pow((nearest.distance + distance_floor) / (match.distance + distance_floor), steepness));
+    kept.push_back(match);
+  }
+}
+
+}  // namespace
+
+ObjectMatcher::ObjectMatcher(const Codebook& codebook) : objects_(codebook.objects.size()) {
+  std::vector<std::uint32_t> object_of_word;
+  for (const Codeword& word : codebook.words) object_of_word.push_back(codebook.views[word.view].object);
+  const bool exact = searchesExactly(SearchKind::automatic, codebook.words.size());
+  index_ = std::make_shared<NearestWord>(codebook.descriptors, exact, object_of_word, objects_);
+}
+
+std::vector<Match> ObjectMatcher::match(const DescriptorMatrix& queries, double ambiguity, int threads) const {
+  if (index_->words().rows() == 0 || queries.rows() == 0) return {};
+  const std::vector<Match> nearest = index_->find(queries, float(ambiguity), threads);
+  std::vector<Match> kept;
+  for (std::size_t i = 0; i < nearest.size(); i += objects_) keepNearly(&nearest[i], objects_, ambiguity, kept);
+  return kept;
+}
+
+}  // namespace sks

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/trainer.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <new>
+
+#include "core/descriptors/shot.hpp"
+#include "core/surface/sanitize.hpp"
+
+namespace sks {
+namespace {
+
+/// Numbers that grow in place: a vector would copy them from time to time, and hold them twice meanwhile. Large blocks
+/// are moved by the kernel, page by page.
+class GrowingValues {
+public:
+  void append(const float* values, std::size_t count) {
+    if (size_ + count > capacity_) reserve(std::max(size_ + count, capacity_ + capacity_ / 2));
+    std::copy_n(values, count, data_.get() + size_);
+    size_ += count;
+  }
+  float* at(std::size_t index) { return data_.get() + index; }
+  void shrinkTo(std::size_t size) { size_ = size; }
+  /// Leaves nothing here.
+  DescriptorMatrix release(std::size_t cols) {
+    if (size_ > 0) reserve(size_);
+    const std::shared_ptr<const float> owner(data_.release(), std::free);
+    return DescriptorMatrix(owner.get(), size_ / cols, cols, owner);
+  }
+
+private:
+  void reserve(std::size_t capacity) {
+    void* moved = std::realloc(data_.get(), capacity * sizeof(float));
+    if (moved == nullptr) throw std::bad_alloc();
+    static_cast<void>(data_.release());  // realloc() has freed it
+    data_.reset(static_cast<float*>(moved));
+    capacity_ = capacity;
+  }
+
+  struct Free {
+    void operator()(float* data) const { std::free(data); }
+  };
+  std::unique_ptr<float, Free> data_;
+  std::size_t size_ = 0, capacity_ = 0;
+};
+
+/// Codewords under construction. Descriptors start as CSHOT under `automatic`; from the first cloud without colour on
+/// they are SHOT, and what was there is cut down to its SHOT part.
+class CodebookBuilder {
+public:
+  CodebookBuilder(const Settings& settings, const std::string& name)
+      : threads_(threadCount(settings)),
+        type_(settings.descriptor.type == DescriptorType::automatic ? DescriptorType::cshot
+                                                                    : settings.descriptor.type) {
+    codebook_.name = name;
+    codebook_.settings = settings;
+  }
+
+  void add(const TrainingSample& sample) {
+    const Settings& settings = codebook_.settings;
+    SanitizeSettings sanitizing = settings.sanitize;
+    if (sample.kind == ViewKind::model) sanitizing.min_range = 0;  // a model's origin is no sensor
+    const Cloud cloud = sanitize(sample.load(), sanitizing, nullptr, threads_);
+    if (!cloud.hasColor() && settings.descriptor.type == DescriptorType::automatic) dropColor();
+
+    const Orientation orientation = sample.kind == ViewKind::model ? Orientation::outward : Orientation::sensor;
+    const Surface surface = prepareSurface(cloud, settings.surface, orientation, threads_);
+    const Keypoints keypoints = detectKeypoints(surface, settings.keypoints, threads_);
+    const Descriptors descriptors = computeDescriptors(surface, keypoints, type_, settings.descriptor, threads_);
+    if (descriptors.keypoints.empty()) {
+      throw Error(ErrorCode::bad_data, "none of its " + std::to_string(keypoints.size()) +
+                                           " keypoints has a descriptor; is surface.normal_radius (" +
+                                           getSetting(settings, "surface.normal_radius") +
+                                           " m) or descriptor.radius (" + getSetting(settings, "descriptor.radius") +
+                                           " m) below the spacing of the points?");
+    }
+    addView(sample, surface, cloud);
+    addWords(keypoints, descriptors);
+  }
+
+  Codebook finish() {
+    codebook_.descriptor_type = type_;
+    codebook_.settings.descriptor.type = type_;
+    codebook_.descriptors = values_.release(descriptorSize(type_));
+    return std::move(codebook_);
+  }
+
+private:
+  void dropColor() {
+    if (type_ != DescriptorType::cshot) return;
+    for (std::size_t row = 0; row < codebook_.words.size(); ++row) {
+      std::copy_n(values_.at(row * cshot_size), shot_size, values_.at(row * shot_size));
+      normalize(values_.at(row * shot_size), shot_size);
+    }
+    values_.shrinkTo(codebook_.words.size() * shot_size);
+    type_ = DescriptorType::shot;
+  }
+
+  void addView(const TrainingSample& sample, const Surface& surface, const Cloud& cloud) {
+    TrainingView view;
+    const auto known = std::find(codebook_.objects.begin(), codebook_.objects.end(), sample.object);
+    view.object = std::uint32_t(known - codebook_.objects.begin());
+    if (known == codebook_.objects.end()) codebook_.objects.push_back(sample.object);
+    view.source = sample.source;
+    view.frame = sample.frame;
+    view.kind = sample.kind;
+    view.sensor_origin = cloud.sensor_origin;
+    Eigen::AlignedBox3f box;
+    for (const auto& p : cloud.points) box.extend(p);
+    if (sample.box) box = *sample.box;
+    view.box_min = box.min();
+    view.box_max = box.max();
+    for (const std::uint32_t i : thinnedIndices(surface, codebook_.settings.training.surface_resolution)) {
+      if (!surface.normal(i).allFinite()) continue;
+      view.surface_points.push_back(surface.point(i));
+      view.surface_normals.push_back(surface.normal(i));
+      if (surface.hasColor()) view.surface_colors.push_back(surface.colorAt(i));
+    }
+    codebook_.views.push_back(std::move(view));
+  }
+
+  void addWords(const Keypoints& keypoints, const Descriptors& descriptors) {
+    const DescriptorMatrix& rows = descriptors.values;
+    values_.append(rows.data(), rows.rows() * rows.cols());
+    for (std::size_t row = 0; row < rows.rows(); ++row) {
+      Codeword word;
+      word.view = std::uint32_t(codebook_.views.size() - 1);
+      word.position = keypoints.positions[descriptors.keypoints[row]];
+      word.frame = descriptors.frames[row];
+      codebook_.words.push_back(word);
+    }
+  }
+
+  int threads_;
+  DescriptorType type_;
+  Codebook codebook_;
+  GrowingValues values_;
+};
+
+}  // namespace
+
+Codebook train(const std::vector<TrainingSample>& samples, const Settings& settings, const std::string& name,
+               const Progress& progress) {
+  validate(settings);
+  if (samples.empty()) throw Error(ErrorCode::bad_usage, "there is nothing to train: no training cloud was given");
+  CodebookBuilder builder(settings, name);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    report(progress, {"training", samples[i].source, i, samples.size()});
+    try {
+      builder.add(samples[i]);
+    } catch (const Error& error) {
+      throw Error(error.code(), samples[i].source + ": " + error.what());
+    }
+  }
+  report(progress, {"training", "", samples.size(), samples.size()});
+  return builder.finish();
+}
+
+}  // namespace sks

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/surface/sanitize.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <sstream>
+#include <utility>
+
+#include <sks_detector/error.hpp>
+
+namespace sks {
+namespace {
+
+constexpr double implausible_distance = 50.0;  // [m]; beyond every RGB-D sensor, below any object in millimetres
+
+/// Set of positions by their exact value; open addressing, sized once. A slot holds a part of the hash, so that other
+/// positions are hardly ever read.
+class PositionSet {
+public:
+  PositionSet(const std::vector<Eigen::Vector3f>& points, std::size_t expected) : points_(points) {
+    while ((std::size_t(1) << bits_) < 2 * expected) ++bits_;
+    slots_.assign(std::size_t(1) << bits_, {0, 0});
+  }
+
+  static std::uint64_t hash(const Eigen::Vector3f& point) {
+    const Eigen::Vector3f p = point + Eigen::Vector3f::Zero();  // -0 becomes +0
+    std::uint32_t bits[3];
+    std::memcpy(bits, p.data(), sizeof bits);
+    const std::uint64_t mixed =
+        bits[0] * 0x9E3779B97F4A7C15ull ^ bits[1] * 0xC2B2AE3D27D4EB4Full ^ bits[2] * 0x165667B19E3779F9ull;
+    return mixed * 0x9E3779B97F4A7C15ull;
+  }
+
+  /// Has the place of a hash read from memory, for insert() soon after.
+  void prefetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash >> (64 - bits_)]); }
+
+  /// False if an equal position is in the set already.
+  bool insert(std::uint32_t index, std::uint64_t hash) {
+    const std::uint32_t tag = std::uint32_t(hash);
+    for (std::size_t slot = hash >> (64 - bits_);; slot = (slot + 1) & (slots_.size() - 1)) {
+      if (slots_[slot].next_index == 0) {
+        slots_[slot] = {index + 1, tag};
+        return true;
+      }
+      if (slots_[slot].tag == tag && points_[slots_[slot].next_index - 1] == points_[index]) return false;
+    }
+  }
+
+private:
+  struct Slot {
+    std::uint32_t next_index;  // index + 1; 0 is free
+    std::uint32_t tag;
+  };
+  const std::vector<Eigen::Vector3f>& points_;
+  int bits_ = 4;
+  std::vector<Slot> slots_;
+};
+
+/// Of up to some thousand points, spread evenly over the cloud.
+double medianDistance(const Cloud& cloud) {
+  constexpr std::size_t enough = 4096;
+  const std::size_t step = std::max<std::size_t>(1, cloud.size() / enough);
+  std::vector<float> distances;
+  for (std::size_t i = 0; i < cloud.size(); i += step) {
+    if (cloud.points[i].allFinite()) distances.push_back((cloud.points[i] - cloud.sensor_origin).norm());
+  }
+  if (distances.empty()) return 0;
+  auto middle = distances.begin() + distances.size() / 2;
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
+[[noreturn]] void refuse(const std::string& message) {
+  throw Error(ErrorCode::bad_data, message);
+}
+
+void checkShape(const Cloud& cloud) {
+  if (cloud.points.empty()) refuse("the cloud is empty (0 points)");
+  if (cloud.points.size() != std::size_t(cloud.width) * cloud.height) {
+    refuse("the cloud holds " + std::to_string(cloud.points.size()) + " points, but its width x height is " +
+           std::to_string(cloud.width) + " x " + std::to_string(cloud.height));
+  }
+  if (cloud.hasColor() && cloud.colors.size() != cloud.points.size()) {
+    refuse("the cloud holds " + std::to_string(cloud.colors.size()) + " colours for " +
+           std::to_string(cloud.points.size()) + " points");
+  }
+  constexpr float farthest_origin = 1e6f;  // [m]; squares of coordinates are far from overflow
+  if (!(cloud.sensor_origin.array().abs() <= farthest_origin).all()) {
+    refuse("the cloud's sensor origin (viewpoint) does not lie within 1000 km of its points' origin");
+  }
+}
+
+/// Indices of the finite points within range and crop box; counts the others.
+std::vector<std::uint32_t> usablePoints(const Cloud& cloud, const SanitizeSettings& settings, int threads,
+                                        SanitizeReport& counts) {
+  const Eigen::Array3f low(settings.crop_min_x, settings.crop_min_y, settings.crop_min_z);
+  const Eigen::Array3f high(settings.crop_max_x, settings.crop_max_y, settings.crop_max_z);
+  const double nearest = settings.min_range * settings.min_range, farthest = settings.max_range * settings.max_range;
+  std::vector<char> use(cloud.size());
+  std::size_t invalid = 0;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(+ : invalid)
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Eigen::Vector3f& p = cloud.points[i];
+    const bool finite = p.allFinite();
+    invalid += !finite;
+    if (!finite) continue;
+    const double squared = (p - cloud.sensor_origin).cast<double>().squaredNorm();
+    const bool inside = !settings.crop || ((p.array() >= low).all() && (p.array() <= high).all());
+    use[i] = !(squared < nearest || squared > farthest) && inside;
+  }
+  std::vector<std::uint32_t> usable(cloud.size());
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {  // without branches: clouds have holes everywhere
+    usable[count] = std::uint32_t(i);
+    count += std::size_t(use[i]);
+  }
+  usable.resize(count);
+  counts.invalid = invalid;
+  counts.out_of_range = cloud.size() - invalid - count;
+  return usable;
+}
+
+/// Those of the points that are not at exactly the place of an earlier one. Equal points have equal hashes: each share
+/// of all hashes is looked at by itself.
+std::vector<std::uint32_t> distinctPoints(const Cloud& cloud, const std::vector<std::uint32_t>& indices, int threads) {
+  const std::size_t n = indices.size(), shares = std::size_t(threads);
+  std::vector<std::uint64_t> hashes(n);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t i = 0; i < n; ++i) hashes[i] = PositionSet::hash(cloud.points[indices[i]]);
+  std::vector<char> distinct(n);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t share = 0; share < shares; ++share) {
+    constexpr std::size_t block = 32;
+    PositionSet seen(cloud.points, n / shares + n / 8);
+    std::size_t waiting[block] = {}, count = 0;
+    const auto insert = [&] {
+      for (std::size_t k = 0; k < count; ++k)
+        distinct[waiting[k]] = seen.insert(indices[waiting[k]], hashes[waiting[k]]);
+      count = 0;
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      if (((hashes[i] & 0xffff) * shares) >> 16 != share) continue;
+      seen.prefetch(hashes[i]);
+      waiting[count++] = i;
+      if (count == block) insert();
+    }
+    insert();
+  }
+  std::vector<std::uint32_t> kept;
+  kept.reserve(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (distinct[i]) kept.push_back(indices[i]);
+  }
+  return kept;
+}
+
+}  // namespace
+
+Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeReport* report, int threads) {
+  checkShape(cloud);
+  const double median = medianDistance(cloud);
+  if (median > std::max(implausible_distance, settings.max_range)) {
+    std::ostringstream message;
+    message << "the cloud looks like millimetres: the median distance from the sensor is " << median
+            << " m; scale it by 0.001 (units: mm in a data set file, --scale 0.001 on the command line)";
+    refuse(message.str());
+  }
+
+  SanitizeReport counts;
+  counts.input = cloud.size();
+  const auto usable = usablePoints(cloud, settings, threads, counts);
+  auto distinct = settings.remove_duplicates ? distinctPoints(cloud, usable, threads) : usable;
+  counts.duplicates = usable.size() - distinct.size();
+  Cloud kept;
+  kept.sensor_origin = cloud.sensor_origin;
+  kept.points.resize(distinct.size());
+  if (cloud.hasColor()) kept.colors.resize(distinct.size());
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t i = 0; i < distinct.size(); ++i) {
+    kept.points[i] = cloud.points[distinct[i]];
+    if (cloud.hasColor()) kept.colors[i] = cloud.colors[distinct[i]];
+  }
+  if (cloud.organized()) {
+    kept.pixels = std::move(distinct);
+    kept.columns = cloud.width;
+  }
+  counts.kept = kept.size();
+  kept.width = std::uint32_t(kept.size());
+  if (report) *report = counts;
+  if (counts.kept < std::size_t(settings.min_points)) {
+    std::ostringstream message;
+    message << "the cloud has " << counts.kept << " usable points, at least " << settings.min_points
+            << " are needed: of " << counts.input << " points " << counts.invalid << " are NaN or infinite, "
+            << counts.out_of_range << " out of range (" << settings.min_range << " to " << settings.max_range
+            << " m from the sensor" << (settings.crop ? ", crop box" : "") << "), " << counts.duplicates
+            << " duplicates";
+    refuse(message.str());
+  }
+  return kept;
+}
+
+}  // namespace sks

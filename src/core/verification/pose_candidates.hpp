@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <sks_detector/codebook.hpp>
+#include <sks_detector/settings.hpp>
+#include <sks_detector/stages/voting.hpp>
+
+#include "core/verification/pose_evidence.hpp"
+
+namespace sks {
+
+/// A pose by one correspondence: the local frames give the rotation, the keypoints the translation.
+struct PoseCandidate {
+  std::uint32_t object = 0;
+  std::uint32_t view = 0;
+  Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
+  double promise = 0;  ///< from the votes around it and a glance at the scene
+};
+
+/// The most promising poses of each object, at most `verification.candidates`, best first within each object.
+/// @param telling how telling the points of each view's stored surface are
+std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<Distinctiveness>& telling,
+                                          const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
+                                          const Settings& settings, int threads);
+
+}  // namespace sks

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/verification/pose_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/verification/color_agreement.hpp"
+
+namespace sks {
+namespace {
+
+constexpr float weight_radius = 0.02f;  // [m] the scale of the keypoints' local surfaces
+constexpr float color_weight = 0.5f;    // of varying colours beside varying normals
+constexpr float grazing = 0.17f;        // cosine; surfaces turned away by more than 80 degrees are hardly measured
+constexpr std::size_t glance_points = 80;
+constexpr float glance_distance = 0.015f;   // [m] rough poses are that far off
+constexpr float glance_agreement = 0.7f;    // cosine, about 45 degrees
+constexpr float glance_occlusion = 0.02f;   // [m]
+constexpr float glance_color_slack = 1.5f;  // of the tolerance: prints are off by as much as the pose
+constexpr double unmeasured = 0.5;          // weight of what should be seen where the sensor measured nothing
+
+/// One point of a stored surface in the scene.
+struct Placed {
+  Eigen::Vector3f point, normal;
+};
+
+/// Calls `f(index, placed point)` for every `stride`-th point of the surface that faces the sensor.
+template <typename Function>
+void forEachFacing(const TrainingView& view, const Surface& scene, const Eigen::Isometry3d& T_scene_model,
+                   std::size_t stride, Function&& f) {
+  const Eigen::Isometry3f T = T_scene_model.cast<float>();
+  for (std::size_t i = 0; i < view.surface_points.size(); i += stride) {
+    const Placed placed{T * view.surface_points[i], T.linear() * view.surface_normals[i]};
+    const Eigen::Vector3f ray = scene.sensor_origin - placed.point;
+    if (placed.normal.dot(ray) > grazing * ray.norm()) f(i, placed);
+  }
+}
+
+/// The scene point that confirms a point of a stored surface, and by how much.
+struct Partner {
+  std::uint32_t point = no_point;
+  float agreement = 1;  // of the colours
+};
+
+/// The scene point within `distance` that the sensor saw in this direction, or else the one whose normal agrees best;
+/// `no_point` if none does by `agreement`. Prints shift by some pixels where a pose is a little off: of all such
+/// points, the one of the most similar colour counts.
+Partner partnerOf(const Placed& placed, const Sighting& seen, const Eigen::Vector3f* color, const SceneView& scene,
+                  float distance, float agreement, Partners partners, std::vector<PointGrid::Run>& runs) {
+  const Surface& surface = scene.surface;
+  Partner partner;
+  const bool seen_there = seen.hasPoint() && placed.normal.dot(seen.cell->normal()) > agreement &&
+                          (seen.cell->position() - placed.point).squaredNorm() <= distance * distance;
+  if (seen_there && (color == nullptr || partners == Partners::in_sight)) {
+    partner.point = scene.range_image.pointOf(seen);
+    if (color != nullptr) {
+      const float difference = squaredColorDifference(*color, surface.colorAt(partner.point));
+      partner.agreement = colorAgreement(difference, scene.color_tolerance);
+    }
+    return partner;
+  }
+  if (partners == Partners::in_sight) return partner;
+  float best = agreement, difference = std::numeric_limits<float>::infinity();
+  surface.forEachNeighbor(placed.point, distance, runs, [&](std::uint32_t j, float) {
+    const float cosine = placed.normal.dot(surface.normal(j));
+    if (color != nullptr && cosine > agreement) {
+      difference = std::min(difference, squaredColorDifference(*color, surface.colorAt(j)));
+    }
+    if (cosine > best) {
+      best = cosine;
+      partner.point = j;
+    }
+  });
+  if (color != nullptr) partner.agreement = colorAgreement(difference, scene.color_tolerance);
+  return partner;
+}
+
+}  // namespace
+
+SceneView::SceneView(const Surface& scene, const Settings& settings, int threads)
+    : surface(scene),
+      range_image(scene, float(settings.surface.normal_radius), threads),
+      planes(findLargePlanes(scene, threads)),
+      color_tolerance(scene.hasColor() ? float(settings.verification.color_tolerance) : 0) {}
+
+Distinctiveness::Distinctiveness(const TrainingView& view) : shape(view.surface_points.size(), 0.0f) {
+  const PointGrid grid(view.surface_points, weight_radius);
+  std::vector<PointGrid::Run> runs;
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    int count = 0;
+    grid.forEachNeighbor(view.surface_points[i], weight_radius, runs, [&](std::uint32_t j, float) {
+      sum += view.surface_normals[grid.source[j]];
+      ++count;
+    });
+    if (count > 0) shape[i] = std::max(0.0f, 1 - sum.norm() / float(count));
+  }
+  const std::vector<float> variation = colorVariation(view, weight_radius);
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    shape_and_color.push_back(std::min(1.0f, shape[i] + color_weight * variation[i]));
+  }
+}
+
+PoseEvidence examinePose(const TrainingView& view, const Distinctiveness& telling, const SceneView& scene,
+                         const Settings& settings, const Eigen::Isometry3d& T_scene_model, std::size_t most_points,
+                         Partners partners) {
+  const VerificationSettings& verification = settings.verification;
+  const std::size_t stride = view.surface_points.size() / most_points + 1;
+  const double area = double(stride) * settings.training.surface_resolution * settings.training.surface_resolution;
+  const float distance = float(verification.support_distance);
+  const float agreement = float(std::cos(verification.support_angle));
+  const float object_size = view.extent().maxCoeff();
+  const bool compares_color = scene.comparesColor(view);
+  const std::vector<float>& weights = compares_color ? telling.shape_and_color : telling.shape;
+  PoseEvidence evidence;
+  evidence.partners.reserve(view.surface_points.size() / stride + 1);
+  thread_local std::vector<PointGrid::Run> runs;  // kept from pose to pose
+  forEachFacing(view, scene.surface, T_scene_model, stride, [&](std::size_t i, const Placed& placed) {
+    const double weighted = area * weights[i];
+    evidence.facing += area;
+    const Eigen::Vector3f* color = compares_color ? &view.surface_colors[i] : nullptr;
+    const Sighting seen = scene.range_image.look(placed.point, float(verification.occlusion_distance));
+    const Partner partner = partnerOf(placed, seen, color, scene, distance, agreement, partners, runs);
+    if (partner.point == no_point) {
+      if (seen.sight == Sight::unknown) evidence.weighted_visible += unmeasured * weighted;
+      if (seen.sight == Sight::at || seen.sight == Sight::in_front) evidence.weighted_visible += weighted;
+      return;
+    }
+    const Eigen::Vector3f point = scene.surface.point(partner.point), normal = scene.surface.normal(partner.point);
+    if (planeExtentAt(scene.planes, point, normal) > object_size) return;
+    evidence.supported += area * partner.agreement;
+    evidence.weighted_visible += weighted;
+    evidence.weighted_supported += weighted * partner.agreement;
+    evidence.partners.push_back(partner.point);
+  });
+  return evidence;
+}
+
+RoughSupport glance(const TrainingView& view, const Distinctiveness& telling, const SceneView& scene,
+                    const Eigen::Isometry3d& T_scene_model) {
+  const Surface& surface = scene.surface;
+  const std::size_t stride = std::max<std::size_t>(1, view.surface_points.size() / glance_points);
+  const bool compares_color = scene.comparesColor(view);
+  const std::vector<float>& weights = compares_color ? telling.shape_and_color : telling.shape;
+  const float color_tolerance = glance_color_slack * scene.color_tolerance;
+  RoughSupport support;
+  forEachFacing(view, surface, T_scene_model, stride, [&](std::size_t i, const Placed& placed) {
+    const Sighting seen = scene.range_image.look(placed.point, glance_occlusion);
+    const Sight sight = seen.sight;
+    const bool confirmed = seen.hasPoint() && placed.normal.dot(seen.cell->normal()) > glance_agreement &&
+                           (seen.cell->position() - placed.point).squaredNorm() < glance_distance * glance_distance;
+    if (confirmed) {
+      ++support.points;
+      const double agreement =
+          compares_color ? colorAgreement(squaredColorDifference(view.surface_colors[i],
+                                                                 surface.colorAt(scene.range_image.pointOf(seen))),
+                                          color_tolerance)
+                         : 1;
+      support.supported += agreement * weights[i];
+    }
+    if (confirmed || sight == Sight::at || sight == Sight::in_front) {
+      support.visible += weights[i];
+    } else if (sight == Sight::unknown) {
+      support.visible += unmeasured * weights[i];
+    }
+  });
+  return support;
+}
+
+}  // namespace sks

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <sks_detector/codebook.hpp>
+#include <sks_detector/settings.hpp>
+#include <sks_detector/stages/surface.hpp>
+
+#include "core/keypoints/large_planes.hpp"
+#include "core/verification/range_image.hpp"
+
+namespace sks {
+
+/// A scene as poses are compared with it. Refers to the surface.
+struct SceneView {
+  SceneView(const Surface& scene, const Settings& settings, int threads = 1);
+
+  /// Whether the colours of a view are compared with those of the scene.
+  bool comparesColor(const TrainingView& view) const { return color_tolerance > 0 && !view.surface_colors.empty(); }
+
+  const Surface& surface;
+  RangeImage range_image;
+  std::vector<LargePlane> planes;
+  float color_tolerance;  // units of CIELab; 0: colours are not compared
+};
+
+/// How telling each point of a view's stored surface is, in [0, 1]: flat parts fit many things.
+struct Distinctiveness {
+  explicit Distinctiveness(const TrainingView& view);
+
+  std::vector<float> shape;            ///< how much the normals around it vary
+  std::vector<float> shape_and_color;  ///< ... and the colours
+};
+
+/// What the scene says to a view's stored surface in some pose. Areas are in m^2; weighted ones are multiplied with how
+/// telling the surface is. What is hidden, or lies on a plane larger than the object, speaks neither way.
+struct PoseEvidence {
+  double facing = 0;                    ///< area that faces the sensor
+  double supported = 0;                 ///< of that, confirmed by scene points with matching normals and colours
+  double weighted_visible = 0;          ///< weighted area that should be seen; half where nothing was measured
+  double weighted_supported = 0;        ///< of that, confirmed
+  std::vector<std::uint32_t> partners;  ///< the scene points that confirm it
+};
+
+/// Which scene points may confirm a point of a stored surface.
+enum class Partners {
+  in_sight,  ///< the one that the sensor saw in its direction
+  nearby     ///< all around it
+};
+
+/// @param most_points of the stored surface that are examined, spread evenly
+PoseEvidence examinePose(const TrainingView& view, const Distinctiveness& telling, const SceneView& scene,
+                         const Settings& settings, const Eigen::Isometry3d& T_scene_model,
+                         std::size_t most_points = 1500, Partners partners = Partners::nearby);
+
+/// A quick look at a rough pose, along the sensor's rays only: how much of up to 80 points of the view's surface the
+/// scene confirms. Points count as much as they are telling.
+struct RoughSupport {
+  int points = 0;        ///< confirmed
+  double supported = 0;  ///< their weights
+  double visible = 0;    ///< weights of all that should be seen; half where nothing was measured
+};
+
+RoughSupport glance(const TrainingView& view, const Distinctiveness& telling, const SceneView& scene,
+                    const Eigen::Isometry3d& T_scene_model);
+
+}  // namespace sks

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/verification/score.hpp"
+
+#include <cmath>
+
+namespace sks {
+namespace {
+
+constexpr double steepness = 8;  // of the logistic function, fitted to simulated clutter (docs/evaluate.md)
+
+}  // namespace
+
+double score(const Hypothesis& hypothesis, const Settings& settings) {
+  if (settings.verification.candidates == 0) {
+    return hypothesis.density / (hypothesis.density + settings.detection.half_density);
+  }
+  const double power = std::pow(hypothesis.evidence / settings.verification.half_evidence, steepness);
+  return power / (power + 1);
+}
+
+}  // namespace sks

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <sks_detector/cloud.hpp>
+
+#include "io/dataset.hpp"
+
+namespace sks {
+
+/// Training views that were captured with a camera, kept as a data set of their own: `<folder>/dataset.yaml` and
+/// `<folder>/<object>/000.pcd`, `001.pcd` ... The files are all there is: nothing is lost over restarts, and entries
+/// may be taken out by hand. Safe to use from several threads of one process.
+class CapturedViews {
+public:
+  /// @param folder need not exist; it is made when it is needed
+  explicit CapturedViews(std::string folder);
+
+  struct Added {
+    std::string file;
+    std::size_t views = 0;  ///< of this object, with the new one
+  };
+  /// Stores a view, then lists it. @throws Error(bad_usage) for a name that is not fit for a folder, or if the data set
+  /// file has been changed to millimetres; Error(bad_file) if the files cannot be read or written
+  Added add(const std::string& object, const Cloud& view);
+
+  /// Takes all views of an object out and deletes those that add() stored. Returns how many.
+  std::size_t remove(const std::string& object);
+
+  /// What is there, in its order; without entries if there is nothing.
+  /// @throws Error(bad_file), Error(bad_data) naming file and line if the data set file is damaged
+  DataSet read() const;
+
+  /// Names of the objects, in order of their first view. @throws like read()
+  std::vector<std::string> objects() const;
+
+  const std::string& file() const { return file_; }  ///< of the data set
+
+private:
+  DataSet readUnlocked() const;
+  std::string objectFolder(const std::string& object) const;
+
+  std::string folder_;
+  std::string file_;
+  mutable std::mutex mutex_;
+};
+
+}  // namespace sks

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/dataset.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include <Eigen/SVD>
+
+#include <sks_detector/cloud_io.hpp>
+#include <sks_detector/error.hpp>
+
+#include "io/file.hpp"
+#include "io/yaml_map.hpp"
+#include "io/yaml_text.hpp"
+
+namespace sks {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether a path names an object that the program makes itself.
+bool isBuiltin(const std::string& path) {
+  return path.rfind("builtin:", 0) == 0;
+}
+
+constexpr double rigid_tolerance = 1e-3;  // of each entry of R^T R - I and of the last row
+
+/// Reads the parts of one file; keeps what all of them need.
+class DataSetReader {
+public:
+  explicit DataSetReader(const std::string& file) : file_(file), folder_(fs::path(file).parent_path()) {
+    data_set_.file = file;
+  }
+
+  DataSet read();
+
+private:
+  void readUnits(const YamlMap& map);
+  void readTraining(const YamlMap& map);
+  void addSymmetries();
+  void readScene(const YamlMap& map);
+  GroundTruth readGroundTruth(const YamlMap& map);
+  Eigen::Isometry3d readPose(const YamlMap& map) const;
+  void warnAboutReference(const YamlMap& map, const GroundTruth& truth);
+
+  YamlMap mapOf(const YAML::Node& node, const std::string& what, const std::vector<std::string>& known) const {
+    return {node, file_, what, known};
+  }
+  void warn(const YAML::Node& node, const std::string& message) {
+    data_set_.warnings.push_back(file_ + ":" + std::to_string(node.Mark().line + 1) + ": " + message);
+  }
+  std::string resolve(const std::string& path) const { return (folder_ / path).lexically_normal().string(); }
+  std::string cloudPath(const YamlMap& map) const;
+  Symmetry readSymmetry(const YamlMap& map) const;
+
+  std::string file_;
+  fs::path folder_;
+  DataSet data_set_;
+};
+
+DataSet DataSetReader::read() {
+  const YAML::Node root = parseYaml(readTextFile(file_), file_);
+  const YamlMap map = mapOf(root, "the data set", {"name", "units", "max_distance", "training", "scenes", "tests"});
+  data_set_.name = map.text("name");
+  readUnits(map);
+  for (const YAML::Node& item : map.list("training")) {
+    readTraining(mapOf(item, "a training cloud", {"object", "cloud", "kind", "symmetry"}));
+  }
+  for (const YAML::Node& item : map.list("scenes")) {
+    readScene(mapOf(item, "a scene", {"name", "cloud", "objects", "ignore"}));
+  }
+  addSymmetries();
+  for (const YAML::Node& item : map.list("tests")) {
+    const YamlMap test = mapOf(item, "a test", {"object", "cloud"});
+    data_set_.tests.push_back({test.text("object"), cloudPath(test)});
+  }
+  if (data_set_.training.empty() && data_set_.scenes.empty() && data_set_.tests.empty()) {
+    failAt(file_, root, "nothing in it: the data set needs 'training', 'scenes' or 'tests'");
+  }
+  return std::move(data_set_);
+}
+
+void DataSetReader::readUnits(const YamlMap& map) {
+  const std::string units = map.text("units");
+  if (units != "m" && units != "mm") map.fail("units", "is '" + units + "': use m or mm, the unit of every length");
+  data_set_.scale = units == "mm" ? 0.001 : 1.0;
+  if (map.list("scenes").empty() && !map.has("max_distance")) return;  // only scenes are scored with it
+  const double distance = map.number("max_distance");
+  if (distance <= 0) map.fail("max_distance", "must be greater than 0 " + units);
+  data_set_.max_distance = distance * data_set_.scale;
+}
+
+std::string DataSetReader::cloudPath(const YamlMap& map) const {
+  if (isBuiltin(map.text("cloud"))) return map.text("cloud");
+  std::string path = resolve(map.text("cloud"));
+  std::error_code ignored;
+  if (fs::is_regular_file(path, ignored)) return path;
+  throw Error(ErrorCode::bad_file, file_ + ":" + std::to_string(map.at("cloud").Mark().line + 1) + ": cloud '" + path +
+                                       "' does not exist; paths are relative to the data set file: correct the path or "
+                                       "put the cloud there");
+}
+
+void DataSetReader::readTraining(const YamlMap& map) {
+  TrainingEntry entry;
+  entry.object = map.text("object");
+  entry.source = fs::path(map.text("cloud")).lexically_normal().string();
+  entry.path = cloudPath(map);
+  const std::string kind = map.text("kind");
+  if (kind != "view" && kind != "model" && kind != "mesh") {
+    map.fail("kind", "is '" + kind + "': use view (2.5-D, seen from the camera), model (full 3-D) or mesh (triangles)");
+  }
+  entry.kind = kind == "model" ? ViewKind::model : ViewKind::view;
+  entry.mesh = kind == "mesh";
+  if (isBuiltin(entry.path) && !entry.mesh) map.fail("kind", "must be mesh for the built-in object " + entry.path);
+  if (map.has("symmetry")) entry.symmetry = readSymmetry(map);
+  data_set_.training.push_back(std::move(entry));
+}
+
+Symmetry DataSetReader::readSymmetry(const YamlMap& map) const {
+  const YamlMap part = mapOf(map.at("symmetry"), "a symmetry", {"axis", "order"});
+  const std::vector<double> axis = part.numbers("axis", 3);
+  Symmetry symmetry;
+  symmetry.axis = Eigen::Vector3d(axis[0], axis[1], axis[2]);
+  if (symmetry.axis.norm() < 1e-9) part.fail("axis", "must have a length");
+  symmetry.axis.normalize();
+  if (part.text("order") == "inf") return symmetry;
+  const double order = part.number("order");
+  if (order < 2 || order > 1000 || order != std::floor(order)) {
+    part.fail("order", "must be a whole number from 2 to 1000, or inf for a body of revolution");
+  }
+  symmetry.order = int(order);
+  return symmetry;
+}
+
+/// Gives the ground truth the symmetries that the training entries declare.
+void DataSetReader::addSymmetries() {
+  for (Scene& scene : data_set_.scenes) {
+    for (GroundTruth& truth : scene.objects) {
+      for (const TrainingEntry& entry : data_set_.training) {
+        if (entry.source == truth.reference) truth.symmetry = entry.symmetry;
+      }
+    }
+  }
+}
+
+void DataSetReader::readScene(const YamlMap& map) {
+  Scene scene;
+  scene.name = map.text("name");
+  const auto same_name = [&](const Scene& other) { return other.name == scene.name; };
+  if (std::any_of(data_set_.scenes.begin(), data_set_.scenes.end(), same_name)) {
+    map.fail("name", "is '" + scene.name + "', which an earlier scene has: give each scene a name of its own");
+  }
+  scene.path = cloudPath(map);
+  for (const YAML::Node& item : map.list("objects")) {
+    scene.objects.push_back(readGroundTruth(mapOf(item, "an object of scene '" + scene.name + "'",
+                                                  {"object", "position", "reference", "pose", "visibility"})));
+  }
+  for (const YAML::Node& item : map.list("ignore")) {
+    if (!item.IsScalar() || item.Scalar().empty()) failAt(file_, item, "'ignore' must be a list of names of objects");
+    scene.ignore.push_back(item.Scalar());
+    const auto named = [&](const GroundTruth& truth) { return truth.object == item.Scalar(); };
+    if (std::any_of(scene.objects.begin(), scene.objects.end(), named)) {
+      warn(item, "'" + item.Scalar() + "' of scene '" + scene.name +
+                     "' is ignored although it has ground truth there: that counts neither");
+    }
+  }
+  data_set_.scenes.push_back(std::move(scene));
+}
+
+GroundTruth DataSetReader::readGroundTruth(const YamlMap& map) {
+  GroundTruth truth;
+  truth.object = map.text("object");
+  const std::vector<double> position = map.numbers("position", 3);
+  truth.position = data_set_.scale * Eigen::Vector3d(position[0], position[1], position[2]);
+  if (map.has("reference")) truth.reference = fs::path(map.text("reference")).lexically_normal().string();
+  if (map.has("pose")) truth.T_scene_reference = readPose(map);
+  if (map.has("visibility")) {
+    truth.visibility = map.number("visibility");
+    if (*truth.visibility < 0 || *truth.visibility > 1) map.fail("visibility", "must lie in [0, 1]");
+  }
+  warnAboutReference(map, truth);
+  return truth;
+}
+
+void DataSetReader::warnAboutReference(const YamlMap& map, const GroundTruth& truth) {
+  std::error_code ignored;
+  if (truth.T_scene_reference && truth.reference.empty()) {
+    warn(map.at("pose"), "a pose without 'reference', the training cloud that it maps: no pose error can be taken");
+  } else if (!truth.reference.empty() && !isBuiltin(truth.reference) &&
+             !fs::exists(resolve(truth.reference), ignored)) {
+    warn(map.at("reference"), "reference '" + resolve(truth.reference) + "' does not exist");
+  }
+}
+
+Eigen::Isometry3d DataSetReader::readPose(const YamlMap& map) const {
+  const std::vector<double> values = map.numbers("pose", 16);
+  const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data());
+  if ((matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).cwiseAbs().maxCoeff() > rigid_tolerance) {
+    map.fail("pose", "must end with 0, 0, 0, 1: 16 numbers, row-major, that map the reference into the scene");
+  }
+  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
+  const double skew = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+  if (skew > rigid_tolerance || rotation.determinant() < 0) {
+    map.fail("pose", "is not rigid: its upper left 3 x 3 numbers must be a rotation, without scale or mirroring");
+  }
+  // printed digits leave the rotation a little skew; inverting it as a rigid transform needs an exact one
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(rotation, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = svd.matrixU() * svd.matrixV().transpose();
+  pose.translation() = data_set_.scale * matrix.topRightCorner<3, 1>();
+  return pose;
+}
+
+}  // namespace
+
+DataSet loadDataSet(const std::string& path) {
+  return DataSetReader(path).read();
+}
+
+std::vector<TrainingSample> trainingSamples(const DataSet& data_set, const MeshSampler& sampler) {
+  std::vector<TrainingSample> samples;
+  for (const TrainingEntry& entry : data_set.training) {
+    if (entry.mesh) {
+      if (!sampler) throw Error(ErrorCode::bad_usage, entry.source + ": this program cannot train from meshes");
+      const std::vector<TrainingSample> views = sampler(entry, data_set.scale);
+      samples.insert(samples.end(), views.begin(), views.end());
+      continue;
+    }
+    const auto load = [path = entry.path, scale = data_set.scale] { return readCloud(path, scale); };
+    samples.push_back({entry.object, entry.source, entry.kind, load, {}, {}});
+  }
+  return samples;
+}
+
+std::vector<std::string> untrainedObjects(const DataSet& data_set, const std::vector<std::string>& trained) {
+  std::vector<std::string> untrained;
+  const auto in = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  for (const Scene& scene : data_set.scenes) {
+    for (const GroundTruth& truth : scene.objects) {
+      if (!in(trained, truth.object) && !in(untrained, truth.object)) untrained.push_back(truth.object);
+    }
+  }
+  return untrained;
+}
+
+}  // namespace sks
