@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pcl_pipeline.hpp"
+#include "core/keypoints/sparse_selection.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,8 @@
 // The stages from the cloud to the descriptors, each with one thread ("theirs") and with two.
 #include <sks_detector/stages/descriptors.hpp>
 
+#include "core/keypoints/sparse_selection.hpp"
+#include "core/surface/normals.hpp"
 #include "core/surface/sanitize.hpp"
 #include "pair.hpp"
 #include "recorded_scenes.hpp"

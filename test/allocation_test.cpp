@@ -9,7 +9,9 @@
 #include <sks_detector/stages/descriptors.hpp>
 #include <sks_detector/stages/matching.hpp>
 
+#include "core/keypoints/sparse_selection.hpp"
 #include "core/surface/image_normals.hpp"
+#include "core/surface/normals.hpp"
 #include "core/surface/sanitize.hpp"
 #include "core/verification/pose_evidence.hpp"
 #include "core/verification/projective_refinement.hpp"
@@ -106,17 +108,18 @@ TEST(Allocations, PosesNeedThoseOfTheirConfirmingPointsOnly) {
   const sks::SceneView scene(surface, settings);
   const sks::Codebook codebook = sks::train({sks::test::sampleOf("thing", cloud)}, settings, "synthetic");
   const sks::TrainingView& view = codebook.views.at(0);
-  const sks::Distinctiveness telling(view);
+  const sks::SurfaceWeights surface_weights(view);
   const Eigen::Isometry3d near_truth(Eigen::Translation3d(0.004, -0.003, 0.002));
-  EXPECT_EQ(allocationsOf([&] { EXPECT_GT(sks::glance(view, telling, scene, near_truth).points, 20); }), 0u);
+  EXPECT_EQ(allocationsOf([&] { EXPECT_GT(sks::roughSupport(view, surface_weights, scene, near_truth).points, 20); }),
+            0u);
   EXPECT_EQ(allocationsOf([&] { sks::refineAlongRays(view, scene, settings.refinement, near_truth); }), 0u);
   EXPECT_EQ(allocationsOf([&] {
               sks::refinePose(view.surface_points, view.surface_normals, surface, settings.refinement, near_truth);
             }),
             0u);
   EXPECT_EQ(allocationsOf([&] {
-              const auto evidence = sks::examinePose(view, telling, scene, settings, near_truth);
-              EXPECT_GT(evidence.partners.size(), 100u);
+              const auto evidence = sks::examinePose(view, surface_weights, scene, settings, near_truth);
+              EXPECT_GT(evidence.confirming.size(), 100u);
             }),
             1u);
   const std::vector<sks::Vote> votes(20);

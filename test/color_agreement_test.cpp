@@ -73,8 +73,7 @@ TrainingView coloredView() {
 PoseEvidence evidenceOf(const TrainingView& view, const Surface& surface, double tolerance) {
   Settings settings;
   settings.verification.color_tolerance = tolerance;
-  return examinePose(view, Distinctiveness(view), SceneView(surface, settings), settings,
-                     Eigen::Isometry3d::Identity());
+  return examinePose(view, SurfaceWeights(view), SceneView(surface, settings), settings, Eigen::Isometry3d::Identity());
 }
 
 TEST(ColorAgreement, AnObjectOfOtherColorsIsNotConfirmed) {

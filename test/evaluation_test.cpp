@@ -125,7 +125,7 @@ TEST_F(TwoScenes, SpreadsTimesOverScenesInMilliseconds) {
   for (const auto& stage : evaluation.times) stages.push_back(stage.first);
   EXPECT_THAT(stages, ElementsAre("total", "sanitize", "normals", "keypoints", "descriptors", "matching", "voting",
                                   "verification"));
-  const TimeSpread& total = evaluation.times[0].second;  // 10 and 20 ms
+  const TimeQuantiles& total = evaluation.times[0].second;  // 10 and 20 ms
   EXPECT_DOUBLE_EQ(total.mean, 15);
   EXPECT_DOUBLE_EQ(total.p50, 15);
   EXPECT_DOUBLE_EQ(total.p95, 19.5);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/stages/hypothesis.hpp>
+#include "core/voting/hough_hypotheses.hpp"
 
 #include <numeric>
 

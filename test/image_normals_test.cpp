@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/surface/image_normals.hpp"
+#include "core/surface/normals.hpp"
 
 #include <cmath>
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "bumps.hpp"
+#include "core/keypoints/iss_keypoints.hpp"
 #include "synthetic.hpp"
 
 namespace {

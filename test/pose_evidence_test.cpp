@@ -32,7 +32,7 @@ const TrainingView& trained() {
 
 PoseEvidence evidenceAt(const Surface& surface, const Eigen::Isometry3d& T_scene_model) {
   const Settings settings;
-  return examinePose(trained(), Distinctiveness(trained()), SceneView(surface, settings), settings, T_scene_model);
+  return examinePose(trained(), SurfaceWeights(trained()), SceneView(surface, settings), settings, T_scene_model);
 }
 
 Eigen::Isometry3d moved(double x, double y, double z) {
@@ -46,7 +46,7 @@ TEST(PoseEvidence, ConfirmsTheTruePose) {
   const double area = 25e-6 * double(trained().surface_points.size());  // [m^2] one point each 5 mm
   EXPECT_LE(evidence.facing, area);
   EXPECT_GT(evidence.facing, 0.8 * area);
-  EXPECT_GT(evidence.partners.size(), 500u);
+  EXPECT_GT(evidence.confirming.size(), 500u);
 }
 
 TEST(PoseEvidence, WhatTheCameraSeesThroughSpeaksAgainstAPose) {
@@ -74,16 +74,16 @@ TEST(PoseEvidence, LargePlanesSpeakNeitherWay) {
   for (auto& normal : flat.surface_normals) normal = {0, 0, -1};
   const Settings settings;
   const Surface scene = sceneWith();
-  Distinctiveness telling(flat);
-  telling.shape.assign(flat.surface_points.size(), 0.5f);
+  SurfaceWeights surface_weights(flat);
+  surface_weights.shape.assign(flat.surface_points.size(), 0.5f);
   const PoseEvidence on_the_wall =
-      examinePose(flat, telling, SceneView(scene, settings), settings, moved(0.25, 0, 0.39));
+      examinePose(flat, surface_weights, SceneView(scene, settings), settings, moved(0.25, 0, 0.39));
   EXPECT_GT(on_the_wall.facing, 0);
   EXPECT_LT(on_the_wall.supported, 0.1 * on_the_wall.facing);
 }
 
 TEST(PoseEvidence, FlatPartsAreLessTellingThanEdges) {
-  const std::vector<float> weights = Distinctiveness(trained()).shape;
+  const std::vector<float> weights = SurfaceWeights(trained()).shape;
   ASSERT_EQ(weights.size(), trained().surface_points.size());
   const auto [least, most] = std::minmax_element(weights.begin(), weights.end());
   EXPECT_GE(*least, 0);
@@ -91,13 +91,13 @@ TEST(PoseEvidence, FlatPartsAreLessTellingThanEdges) {
   EXPECT_LE(*most, 1);
 }
 
-TEST(PoseEvidence, AGlanceTellsAGoodPoseFromABadOne) {
+TEST(PoseEvidence, RoughSupportTellsAGoodPoseFromABadOne) {
   const Settings settings;
   const Surface scene = sceneWith();
   const SceneView scene_view(scene, settings);
-  const Distinctiveness telling(trained());
-  const RoughSupport good = glance(trained(), telling, scene_view, moved(0.004, 0, 0));
-  const RoughSupport bad = glance(trained(), telling, scene_view, moved(0, 0, -0.2));
+  const SurfaceWeights surface_weights(trained());
+  const RoughSupport good = roughSupport(trained(), surface_weights, scene_view, moved(0.004, 0, 0));
+  const RoughSupport bad = roughSupport(trained(), surface_weights, scene_view, moved(0, 0, -0.2));
   EXPECT_GT(good.points, 50);
   EXPECT_GT(good.supported, 0.7 * good.visible);
   EXPECT_EQ(bad.points, 0);

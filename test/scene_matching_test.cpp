@@ -33,9 +33,9 @@ Detection detectionAt(const std::string& object, double x, double score) {
   return detection;
 }
 
-std::vector<Outcome> outcomes(const std::vector<JudgedDetection>& judged) {
+std::vector<Outcome> outcomes(const std::vector<MatchedDetection>& matched) {
   std::vector<Outcome> result;
-  for (const JudgedDetection& j : judged) result.push_back(j.outcome);
+  for (const MatchedDetection& j : matched) result.push_back(j.outcome);
   return result;
 }
 
@@ -44,34 +44,34 @@ constexpr Outcome alarm = Outcome::false_positive;
 
 TEST(SceneMatching, OfTwoThatCompeteForOneTheHigherScoreWins) {
   const Scene scene = sceneOf({truthAt("duck", 0)});
-  const auto judged =
+  const auto matched =
       matchScene(scene, {detectionAt("duck", 0.001, 0.6), detectionAt("duck", 0.04, 0.9)}, max_distance);
-  EXPECT_EQ(outcomes(judged), (std::vector<Outcome>{hit, alarm}));
-  EXPECT_EQ(judged[0].detection.score, 0.9);
-  EXPECT_EQ(judged[0].ground_truth, 0u);
-  EXPECT_FALSE(judged[1].ground_truth);
+  EXPECT_EQ(outcomes(matched), (std::vector<Outcome>{hit, alarm}));
+  EXPECT_EQ(matched[0].detection.score, 0.9);
+  EXPECT_EQ(matched[0].ground_truth, 0u);
+  EXPECT_FALSE(matched[1].ground_truth);
 }
 
 TEST(SceneMatching, TheSecondTakesTheNearestThatIsStillFree) {
   const Scene scene = sceneOf({truthAt("duck", 0), truthAt("duck", 0.06)});
   // both are nearest to the first instance; the weaker one is within reach of the second
-  const auto judged = matchScene(scene, {detectionAt("duck", 0.0, 0.9), detectionAt("duck", 0.02, 0.8)}, max_distance);
-  EXPECT_EQ(outcomes(judged), (std::vector<Outcome>{hit, hit}));
-  EXPECT_EQ(judged[0].ground_truth, 0u);
-  EXPECT_EQ(judged[1].ground_truth, 1u);
+  const auto matched = matchScene(scene, {detectionAt("duck", 0.0, 0.9), detectionAt("duck", 0.02, 0.8)}, max_distance);
+  EXPECT_EQ(outcomes(matched), (std::vector<Outcome>{hit, hit}));
+  EXPECT_EQ(matched[0].ground_truth, 0u);
+  EXPECT_EQ(matched[1].ground_truth, 1u);
 }
 
 TEST(SceneMatching, ADetectionThatIsTooFarLeavesTheGroundTruthFree) {
   const Scene scene = sceneOf({truthAt("duck", 0)});
-  const auto judged =
+  const auto matched =
       matchScene(scene, {detectionAt("duck", 0.051, 0.9), detectionAt("duck", 0.05, 0.8)}, max_distance);
-  EXPECT_EQ(outcomes(judged), (std::vector<Outcome>{alarm, hit}));  // the limit itself is within
+  EXPECT_EQ(outcomes(matched), (std::vector<Outcome>{alarm, hit}));  // the limit itself is within
 }
 
 TEST(SceneMatching, FalsePositivesOfAbsentClassesCount) {
   const Scene scene = sceneOf({truthAt("duck", 0)});
-  const auto judged = matchScene(scene, {detectionAt("frog", 0, 0.9), detectionAt("duck", 0, 0.5)}, max_distance);
-  EXPECT_EQ(outcomes(judged), (std::vector<Outcome>{alarm, hit}));
+  const auto matched = matchScene(scene, {detectionAt("frog", 0, 0.9), detectionAt("duck", 0, 0.5)}, max_distance);
+  EXPECT_EQ(outcomes(matched), (std::vector<Outcome>{alarm, hit}));
   EXPECT_EQ(outcomes(matchScene(sceneOf({}), {detectionAt("duck", 0, 0.9)}, max_distance)),
             (std::vector<Outcome>{alarm}));
 }
@@ -79,10 +79,10 @@ TEST(SceneMatching, FalsePositivesOfAbsentClassesCount) {
 TEST(SceneMatching, IgnoredObjectsCountNeitherWay) {
   Scene scene = sceneOf({truthAt("duck", 0), truthAt("frog", 0.5)});
   scene.ignore = {"frog", "mario"};
-  const auto judged = matchScene(
+  const auto matched = matchScene(
       scene, {detectionAt("frog", 0.5, 0.9), detectionAt("mario", 0, 0.8), detectionAt("duck", 0, 0.7)}, max_distance);
-  EXPECT_EQ(outcomes(judged), (std::vector<Outcome>{Outcome::ignored, Outcome::ignored, hit}));
-  EXPECT_FALSE(judged[0].ground_truth);
+  EXPECT_EQ(outcomes(matched), (std::vector<Outcome>{Outcome::ignored, Outcome::ignored, hit}));
+  EXPECT_FALSE(matched[0].ground_truth);
   EXPECT_TRUE(isIgnored(scene, "frog"));
   EXPECT_FALSE(isIgnored(scene, "duck"));
 }
@@ -109,10 +109,10 @@ TEST(SceneMatching, TheOrderOfEqualScoresDoesNotMatter) {
   do {
     std::vector<Detection> permuted;
     for (const std::size_t i : order) permuted.push_back(detections[i]);
-    const auto judged = matchScene(scene, permuted, max_distance);
-    EXPECT_EQ(outcomes(judged), outcomes(expected));
-    for (std::size_t i = 0; i < judged.size(); ++i) {
-      EXPECT_EQ(judged[i].detection.position(), expected[i].detection.position());
+    const auto matched = matchScene(scene, permuted, max_distance);
+    EXPECT_EQ(outcomes(matched), outcomes(expected));
+    for (std::size_t i = 0; i < matched.size(); ++i) {
+      EXPECT_EQ(matched[i].detection.position(), expected[i].detection.position());
     }
   } while (std::next_permutation(order.begin(), order.end()));
 }
@@ -154,15 +154,15 @@ TEST(PoseError, TDiffOfAKnownRotationIsTheFrobeniusNorm) {
 
 TEST(PoseError, IsTakenOnlyInTheFrameOfTheReference) {
   PoseCase c(10);
-  auto judged = matchScene(sceneOf({c.truth}), {c.detection}, max_distance);
-  ASSERT_TRUE(judged[0].pose_error);
-  EXPECT_NEAR(judged[0].pose_error->rotation, 10, 1e-9);
+  auto matched = matchScene(sceneOf({c.truth}), {c.detection}, max_distance);
+  ASSERT_TRUE(matched[0].pose_error);
+  EXPECT_NEAR(matched[0].pose_error->rotation, 10, 1e-9);
 
   Detection other_view = c.detection;
   other_view.view = "views/duck1.pcd";
-  judged = matchScene(sceneOf({c.truth}), {other_view}, max_distance);
-  EXPECT_EQ(judged[0].outcome, hit);
-  EXPECT_FALSE(judged[0].pose_error);
+  matched = matchScene(sceneOf({c.truth}), {other_view}, max_distance);
+  EXPECT_EQ(matched[0].outcome, hit);
+  EXPECT_FALSE(matched[0].pose_error);
 
   GroundTruth no_pose = c.truth;
   no_pose.T_scene_reference.reset();

@@ -95,7 +95,7 @@ TEST(SettingsFile, ForeignFilesAreNamed) {
 }
 
 /// For YAML::LoadAll() these never end, while memory fills.
-TEST(SettingsFile, BracketsWithoutAPartnerAreRefused) {
+TEST(SettingsFile, BracketsWithoutAMatchAreRefused) {
   for (const char* yaml :
        {"{threads: 1}}\n", "{keypoints: {discard: 0.5}, voting.b}, voting.a,}\n", "},\n", ",,,a: {b\nc"}) {
     EXPECT_EQ(parseError(yaml, ErrorCode::bad_file).rfind("c.yaml:", 0), 0u) << yaml;

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <sks_detector/codebook_file.hpp>
-#include <sks_detector/stages/hypothesis.hpp>
+#include "core/voting/hough_hypotheses.hpp"
 
 #include "bumps.hpp"
 #include "error_of.hpp"

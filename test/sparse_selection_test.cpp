@@ -13,6 +13,7 @@
 
 #include "bumps.hpp"
 #include "core/keypoints/otsu.hpp"
+#include "core/keypoints/sparse_selection.hpp"
 #include "pcl_clouds.hpp"
 #include "synthetic.hpp"
 

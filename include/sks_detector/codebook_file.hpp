@@ -19,9 +19,9 @@ std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook);
 /// The checksum that writeCodebook() would store. @throws Error(bad_file) if the codebook cannot be stored
 std::uint32_t codebookChecksum(const Codebook& codebook);
 
-/// Reads a codebook file whole, so that whoever writes to it later changes nothing; descriptors stay where they were read
-/// to, as long as the result lives.
-/// Checks magic, version, checksum, FlatBuffers verifier and every index and length before anything is used.
+/// Reads a codebook file whole, so that whoever writes to it later changes nothing; descriptors stay where they were
+/// read to, as long as the result lives. Checks magic, version, checksum, FlatBuffers verifier and every index and
+/// length before anything is used.
 /// @throws Error(bad_file) naming the path and what is wrong: missing, foreign, truncated, damaged, newer
 std::shared_ptr<const Codebook> readCodebook(const std::string& path);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include <sks_detector/cloud.hpp>
@@ -8,10 +9,9 @@
 #include <sks_detector/detection.hpp>
 #include <sks_detector/settings.hpp>
 
-#include "core/matching/object_matching.hpp"
-
 namespace sks {
 
+class ObjectMatcher;
 class Verifier;
 
 /// Finds the objects of a codebook in clouds: composes the stages of section 3.2. One instance per thread; same cloud,
@@ -39,5 +39,8 @@ private:
   std::shared_ptr<const ObjectMatcher> matcher_;
   std::shared_ptr<const Verifier> verifier_;
 };
+
+/// Whatever finds objects in a cloud, for example a Detector. May throw Error.
+using DetectFunction = std::function<DetectionResult(const Cloud&)>;
 
 }  // namespace sks

@@ -5,6 +5,8 @@
 
 #include <sks_detector/stages/hypothesis.hpp>
 
+#include "core/voting/ransac.hpp"
+
 namespace sks::baselines {
 namespace {
 

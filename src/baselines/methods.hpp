@@ -7,11 +7,11 @@
 #include <vector>
 
 #include <sks_detector/codebook.hpp>
+#include <sks_detector/detector.hpp>
 #include <sks_detector/settings.hpp>
 
 #include "baselines/method_settings.hpp"
-#include "evaluation/classification.hpp"
-#include "evaluation/evaluation.hpp"
+#include "core/pipeline/classifier.hpp"
 
 namespace sks::baselines {
 

@@ -11,9 +11,9 @@
 namespace sks {
 namespace {
 
-std::optional<Spread> spreadOf(const std::vector<double>& values) {
+std::optional<Quantiles> quantilesOf(const std::vector<double>& values) {
   if (values.empty()) return std::nullopt;
-  return Spread{*percentile(values, 0.5), *percentile(values, 0.9)};
+  return Quantiles{*percentile(values, 0.5), *percentile(values, 0.9)};
 }
 
 PoseErrors summarize(const std::vector<PoseError>& errors) {
@@ -23,7 +23,7 @@ PoseErrors summarize(const std::vector<PoseError>& errors) {
     rotation.push_back(error.rotation);
     t_diff.push_back(error.t_diff);
   }
-  return {errors.size(), spreadOf(translation), spreadOf(rotation), spreadOf(t_diff)};
+  return {errors.size(), quantilesOf(translation), quantilesOf(rotation), quantilesOf(t_diff)};
 }
 
 /// Gathers what a score is made of, over scenes.
@@ -32,10 +32,10 @@ struct Gathered {
   std::vector<RankedDetection> ranking;
   std::vector<PoseError> pose_errors;
 
-  void add(const JudgedDetection& judged, double threshold) {
-    const bool hit = judged.outcome == Outcome::true_positive;
-    ranking.push_back({judged.detection.score, hit});
-    if (judged.pose_error && judged.detection.score >= threshold) pose_errors.push_back(*judged.pose_error);
+  void add(const MatchedDetection& matched, double threshold) {
+    const bool hit = matched.outcome == Outcome::true_positive;
+    ranking.push_back({matched.detection.score, hit});
+    if (matched.pose_error && matched.detection.score >= threshold) pose_errors.push_back(*matched.pose_error);
   }
 
   Score score(double threshold) const {
@@ -48,19 +48,19 @@ struct Gathered {
   }
 };
 
-std::vector<std::pair<std::string, TimeSpread>> timeSpreads(const std::vector<SceneResult>& scenes) {
+std::vector<std::pair<std::string, TimeQuantiles>> timeSpreads(const std::vector<SceneResult>& scenes) {
   std::vector<std::pair<std::string, std::vector<double>>> stages;
   for (const auto& stage : namedTimes(StageTimes())) stages.emplace_back(stage.first, std::vector<double>());
   for (const SceneResult& scene : scenes) {
     const auto times = namedTimes(scene.times);
     for (std::size_t i = 0; i < times.size(); ++i) stages[i].second.push_back(1000 * times[i].second);
   }
-  std::vector<std::pair<std::string, TimeSpread>> result;
+  std::vector<std::pair<std::string, TimeQuantiles>> result;
   if (scenes.empty()) return result;
   for (const auto& [name, values] : stages) {
     const double sum = std::accumulate(values.begin(), values.end(), 0.0);
-    result.emplace_back(name,
-                        TimeSpread{sum / double(values.size()), *percentile(values, 0.5), *percentile(values, 0.95)});
+    result.emplace_back(
+        name, TimeQuantiles{sum / double(values.size()), *percentile(values, 0.5), *percentile(values, 0.95)});
   }
   return result;
 }
@@ -112,10 +112,10 @@ void scoreScenes(Evaluation& evaluation) {
       ++total.ground_truth;
       ++objects[truth.object].ground_truth;
     }
-    for (const JudgedDetection& judged : result.detections) {
-      if (judged.outcome == Outcome::ignored) continue;
-      total.add(judged, evaluation.threshold);
-      objects[judged.detection.object].add(judged, evaluation.threshold);
+    for (const MatchedDetection& matched : result.detections) {
+      if (matched.outcome == Outcome::ignored) continue;
+      total.add(matched, evaluation.threshold);
+      objects[matched.detection.object].add(matched, evaluation.threshold);
     }
   }
   evaluation.total = total.score(evaluation.threshold);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <sks_detector/detection.hpp>
+#include <sks_detector/detector.hpp>
 #include <sks_detector/progress.hpp>
 #include <sks_detector/settings.hpp>
 
@@ -17,29 +18,26 @@
 
 namespace sks {
 
-/// Whatever finds objects in a cloud, for example a Detector. May throw Error.
-using DetectFunction = std::function<DetectionResult(const Cloud&)>;
-
 /// What was found in one scene.
 struct SceneResult {
-  Scene scene;                              ///< with its ground truth
-  std::vector<JudgedDetection> detections;  ///< every hypothesis, whatever its score, best first
-  StageTimes times;                         ///< [s]
+  Scene scene;                               ///< with its ground truth
+  std::vector<MatchedDetection> detections;  ///< every hypothesis, whatever its score, best first
+  StageTimes times;                          ///< [s]
   StageCounts counts;
 };
 
 /// Median and 90th percentile.
-struct Spread {
+struct Quantiles {
   double median = 0;
   double p90 = 0;
 };
 
-/// Pose errors of those true positives at the threshold that have one (JudgedDetection::pose_error).
+/// Pose errors of those true positives at the threshold that have one (MatchedDetection::pose_error).
 struct PoseErrors {
   std::size_t count = 0;
-  std::optional<Spread> translation;  ///< [m]
-  std::optional<Spread> rotation;     ///< [deg]
-  std::optional<Spread> t_diff;
+  std::optional<Quantiles> translation;  ///< [m]
+  std::optional<Quantiles> rotation;     ///< [deg]
+  std::optional<Quantiles> t_diff;
 };
 
 /// How one object, or all of them pooled, came off.
@@ -51,7 +49,7 @@ struct Score {
 };
 
 /// Mean and percentiles of a stage's time over the scenes [ms].
-struct TimeSpread {
+struct TimeQuantiles {
   double mean = 0, p50 = 0, p95 = 0;
 };
 
@@ -63,10 +61,11 @@ struct Evaluation {
   double threshold = 0;     ///< the fixed score from which on detections count: settings.detection.threshold
   double max_distance = 0;  ///< of the matching rule [m]
   Score total;              ///< all objects pooled
-  std::map<std::string, Score> objects;                   ///< every object of the ground truth or of a detection
-  std::vector<SceneResult> scenes;                        ///< in the order of the data set
-  std::vector<std::pair<std::string, TimeSpread>> times;  ///< of each stage, `total` first; reading files not counted
-  double peak_memory_mb = 0;                              ///< greatest resident size of the process so far [MiB]
+  std::map<std::string, Score> objects;  ///< every object of the ground truth or of a detection
+  std::vector<SceneResult> scenes;       ///< in the order of the data set
+  std::vector<std::pair<std::string, TimeQuantiles>>
+      times;                  ///< of each stage, `total` first; reading files not counted
+  double peak_memory_mb = 0;  ///< greatest resident size of the process so far [MiB]
 };
 
 /// Detects in every scene and scores what is found.

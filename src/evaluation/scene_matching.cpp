@@ -59,12 +59,12 @@ double nearestTurn(const Eigen::Matrix3d& rotation, const Symmetry& symmetry) {
 
 }  // namespace
 
-std::vector<JudgedDetection> matchScene(const Scene& scene, const std::vector<Detection>& detections,
-                                        double max_distance) {
+std::vector<MatchedDetection> matchScene(const Scene& scene, const std::vector<Detection>& detections,
+                                         double max_distance) {
   std::vector<bool> taken(scene.objects.size(), false);
-  std::vector<JudgedDetection> judged;
+  std::vector<MatchedDetection> matched;
   for (const Detection& detection : ranked(scene, detections)) {
-    JudgedDetection result;
+    MatchedDetection result;
     result.detection = detection;
     const auto nearest = nearestGroundTruth(scene, detection, [&](std::size_t i) { return !taken[i]; });
     if (isIgnored(scene, detection.object)) {
@@ -79,9 +79,9 @@ std::vector<JudgedDetection> matchScene(const Scene& scene, const std::vector<De
             poseError(detection.T_scene_model, *truth.T_scene_reference, truth.position, truth.symmetry);
       }
     }
-    judged.push_back(std::move(result));
+    matched.push_back(std::move(result));
   }
-  return judged;
+  return matched;
 }
 
 bool isIgnored(const Scene& scene, const std::string& object) {

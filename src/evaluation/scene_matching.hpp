@@ -27,7 +27,7 @@ struct PoseError {
 };
 
 /// A detection and what became of it.
-struct JudgedDetection {
+struct MatchedDetection {
   Detection detection;
   Outcome outcome = Outcome::false_positive;
   std::optional<std::size_t> ground_truth;  ///< of a true positive: index into Scene::objects
@@ -41,8 +41,8 @@ struct JudgedDetection {
 /// @param max_distance between a detection's box centre and the position of the ground truth [m]
 /// @return all detections, best first; equal scores by distance to the nearest ground truth of their object, then by
 ///         object and position, so that the order they come in does not matter
-std::vector<JudgedDetection> matchScene(const Scene& scene, const std::vector<Detection>& detections,
-                                        double max_distance);
+std::vector<MatchedDetection> matchScene(const Scene& scene, const std::vector<Detection>& detections,
+                                         double max_distance);
 
 /// Whether an object is on the scene's ignore list.
 bool isIgnored(const Scene& scene, const std::string& object);

@@ -37,10 +37,10 @@ sks::Cloud toCloud(const sensor_msgs::PointCloud2& message) {
   }
   const std::uint64_t points = std::uint64_t(message.width) * message.height, size = message.data.size();
   if (points * message.point_step != size && std::uint64_t(message.row_step) * message.height != size) {
-    throw sks::Error(sks::ErrorCode::bad_data,
-                     "it says " + std::to_string(message.width) + " x " + std::to_string(message.height) +
-                         " points of " + std::to_string(message.point_step) + " bytes, but holds " +
-                         std::to_string(size) + " bytes");
+    throw sks::Error(sks::ErrorCode::bad_data, "it says " + std::to_string(message.width) + " x " +
+                                                   std::to_string(message.height) + " points of " +
+                                                   std::to_string(message.point_step) + " bytes, but holds " +
+                                                   std::to_string(size) + " bytes");
   }
   if (points == 0) throw sks::Error(sks::ErrorCode::bad_data, "the cloud is empty (0 points)");
   sks::PointBlock block;

@@ -28,8 +28,8 @@ sks::Cloud pointsCloud(std::vector<Eigen::Vector3f> points) {
 void checkSize(const sensor_msgs::PointCloud2& message, int max_points) {
   const std::uint64_t points = std::uint64_t(message.width) * message.height;
   if (points <= std::uint64_t(max_points)) return;
-  throw sks::Error(sks::ErrorCode::bad_data, "it has " + std::to_string(points) + " points, more than ~max_points = " +
-                                                 std::to_string(max_points) +
+  throw sks::Error(sks::ErrorCode::bad_data, "it has " + std::to_string(points) +
+                                                 " points, more than ~max_points = " + std::to_string(max_points) +
                                                  ": thin it, by pcl/VoxelGrid for example, or set ~max_points");
 }
 

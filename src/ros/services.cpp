@@ -23,7 +23,7 @@ namespace sks_detector {
 namespace {
 
 constexpr std::size_t longest_failure = 2000;  // bytes; it may quote a request, and goes to log and status
-constexpr int thread_count = 4;  // a training and two that wait for clouds leave one for ~cancel_training
+constexpr int thread_count = 4;                // a training and two that wait for clouds leave one for ~cancel_training
 
 ros::NodeHandle withQueue(ros::NodeHandle handle, ros::CallbackQueue& queue) {
   handle.setCallbackQueue(&queue);

@@ -102,10 +102,10 @@ Status StatusBoard::current() const {
 
 void StatusBoard::change(const std::function<bool()>& change) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const bool worth_telling = change();
+  const bool worth_publishing = change();
   status_.state = state();
   status_.header.stamp = ros::Time::now();
-  if (worth_telling) publisher_.publish(status_);
+  if (worth_publishing) publisher_.publish(status_);
 }
 
 std::uint8_t StatusBoard::state() const {

@@ -46,7 +46,7 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  /// Makes a change and, if it returns that it is worth telling, publishes.
+  /// Makes a change and, if it returns that it is worth publishing, publishes.
   void change(const std::function<bool()>& change);
   std::uint8_t state() const;
 

@@ -71,9 +71,9 @@ std::string bopResults(const DataSet& data_set, const Evaluation& evaluation) {
   std::string text = "scene_id,im_id,obj_id,score,R,t,time\n";
   for (const SceneResult& result : evaluation.scenes) {
     const std::pair<int, int> image = imageNumbers(result.scene.name);
-    for (const JudgedDetection& judged : result.detections) {
-      checkFrame(data_set, judged.detection);
-      text += line(image, judged.detection, result.times.total);
+    for (const MatchedDetection& matched : result.detections) {
+      checkFrame(data_set, matched.detection);
+      text += line(image, matched.detection, result.times.total);
     }
   }
   return text;

@@ -27,9 +27,9 @@ json pointJson(const CurvePoint& point) {
   return result;
 }
 
-json spreadJson(const std::optional<Spread>& spread) {
-  if (!spread) return {{"median", nullptr}, {"p90", nullptr}};
-  return {{"median", spread->median}, {"p90", spread->p90}};
+json quantilesJson(const std::optional<Quantiles>& quantiles) {
+  if (!quantiles) return {{"median", nullptr}, {"p90", nullptr}};
+  return {{"median", quantiles->median}, {"p90", quantiles->p90}};
 }
 
 /// Parallel lists of threshold, precision and recall.
@@ -50,9 +50,9 @@ json scoreJson(const Score& score) {
   result["ground_truth"] = score.tally.ground_truth;
   result["average_precision"] = orNull(score.average_precision);
   result["pose"] = {{"count", score.pose.count},
-                    {"translation_error_m", spreadJson(score.pose.translation)},
-                    {"rotation_error_deg", spreadJson(score.pose.rotation)},
-                    {"t_diff", spreadJson(score.pose.t_diff)}};
+                    {"translation_error_m", quantilesJson(score.pose.translation)},
+                    {"rotation_error_deg", quantilesJson(score.pose.rotation)},
+                    {"t_diff", quantilesJson(score.pose.t_diff)}};
   result["best"] = best ? pointJson(*best) : json();
   result["curve"] = curveJson(curve);
   return result;
@@ -61,8 +61,8 @@ json scoreJson(const Score& score) {
 json groundTruthJson(const SceneResult& result, std::size_t index, double threshold) {
   const GroundTruth& truth = result.scene.objects[index];
   bool detected = false;
-  for (const JudgedDetection& judged : result.detections) {
-    detected = detected || (judged.ground_truth == index && judged.detection.score >= threshold);
+  for (const MatchedDetection& matched : result.detections) {
+    detected = detected || (matched.ground_truth == index && matched.detection.score >= threshold);
   }
   return {{"object", truth.object},
           {"position", vectorJson(truth.position)},
@@ -71,14 +71,14 @@ json groundTruthJson(const SceneResult& result, std::size_t index, double thresh
           {"detected", detected}};
 }
 
-json judgedJson(const JudgedDetection& judged) {
-  json result = detectionJson(judged.detection);
-  result["ignored"] = judged.outcome == Outcome::ignored;
-  result["true_positive"] = judged.outcome == Outcome::true_positive;
-  if (judged.pose_error) {
-    result["pose_error"] = {{"translation_error_m", judged.pose_error->translation},
-                            {"rotation_error_deg", judged.pose_error->rotation},
-                            {"t_diff", judged.pose_error->t_diff}};
+json matchedJson(const MatchedDetection& matched) {
+  json result = detectionJson(matched.detection);
+  result["ignored"] = matched.outcome == Outcome::ignored;
+  result["true_positive"] = matched.outcome == Outcome::true_positive;
+  if (matched.pose_error) {
+    result["pose_error"] = {{"translation_error_m", matched.pose_error->translation},
+                            {"rotation_error_deg", matched.pose_error->rotation},
+                            {"t_diff", matched.pose_error->t_diff}};
   }
   return result;
 }
@@ -88,7 +88,7 @@ json sceneJson(const SceneResult& scene, double threshold) {
   for (std::size_t i = 0; i < scene.scene.objects.size(); ++i) {
     result["ground_truth"].push_back(groundTruthJson(scene, i, threshold));
   }
-  for (const JudgedDetection& judged : scene.detections) result["detections"].push_back(judgedJson(judged));
+  for (const MatchedDetection& matched : scene.detections) result["detections"].push_back(matchedJson(matched));
   return result;
 }
 

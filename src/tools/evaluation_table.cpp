@@ -12,8 +12,8 @@ std::string number(const std::optional<double>& value, int decimals) {
   return fixed(value.value_or(std::numeric_limits<double>::quiet_NaN()), decimals);
 }
 
-std::string median(const std::optional<Spread>& spread, double scale, int decimals) {
-  return number(spread ? std::optional<double>(scale * spread->median) : std::nullopt, decimals);
+std::string median(const std::optional<Quantiles>& quantiles, double scale, int decimals) {
+  return number(quantiles ? std::optional<double>(scale * quantiles->median) : std::nullopt, decimals);
 }
 
 std::vector<std::string> tallyCells(const Tally& tally) {

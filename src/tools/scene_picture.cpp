@@ -19,10 +19,10 @@ Rgb colorOf(Outcome outcome) {
 void saveScenePicture(const std::string& path, const Cloud& cloud, const SceneResult& result, double threshold) {
   Picture picture(cloud);
   std::vector<bool> found(result.scene.objects.size(), false);
-  for (auto judged = result.detections.rbegin(); judged != result.detections.rend(); ++judged) {  // the best on top
-    if (judged->detection.score < threshold) continue;
-    if (judged->ground_truth) found[*judged->ground_truth] = true;
-    picture.drawDetection(judged->detection, colorOf(judged->outcome));
+  for (auto matched = result.detections.rbegin(); matched != result.detections.rend(); ++matched) {  // the best on top
+    if (matched->detection.score < threshold) continue;
+    if (matched->ground_truth) found[*matched->ground_truth] = true;
+    picture.drawDetection(matched->detection, colorOf(matched->outcome));
   }
   for (std::size_t i = 0; i < found.size(); ++i) {
     const GroundTruth& truth = result.scene.objects[i];

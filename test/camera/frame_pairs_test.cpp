@@ -17,7 +17,7 @@ ColorImage colorAt(std::uint64_t time) {
   return {1, 1, time, {1, 2, 3}};
 }
 
-TEST(FramePairs, WaitForThePartnerOfTheSameTime) {
+TEST(FramePairs, WaitForTheOtherImageOfTheSameTime) {
   FramePairs pairs(period / 2);
   CameraFrame frame;
   pairs.add(colorAt(1000));
@@ -31,7 +31,7 @@ TEST(FramePairs, WaitForThePartnerOfTheSameTime) {
   EXPECT_FALSE(pairs.take(frame));
 }
 
-TEST(FramePairs, DropWhatNoPartnerCameFor) {
+TEST(FramePairs, DropWhatNoOtherImageCameFor) {
   FramePairs pairs(period / 2);
   CameraFrame frame;
   pairs.add(depthAt(0));

@@ -6,12 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include <sks_detector/codebook.hpp>
-#include <sks_detector/settings.hpp>
-#include <sks_detector/stages/voting.hpp>
-
-#include "core/voting/mean_shift.hpp"
-
 namespace sks {
 
 /// An object at a place, with the correspondences that agree on its pose.
@@ -26,16 +20,5 @@ struct Hypothesis {
   std::uint32_t votes = 0;             ///< votes at the maximum before RANSAC
   std::vector<std::uint32_t> inliers;  ///< indices of the votes that RANSAC did not remove
 };
-
-/// RANSAC on the pairs {p_t, p_s} of a maximum's votes (section 3.2); then density, least-squares pose and box from
-/// the inliers. Pairs are compared within one model frame: that of a training view, or of all views that are
-/// registered to each other. The frame with most inliers gives the pose. Votes of frames with fewer than three pairs
-/// can be neither confirmed nor refuted: they stay.
-/// @return false if fewer than min_inliers agree
-bool estimateHypothesis(const Codebook& codebook, std::uint32_t object, const std::vector<Vote>& votes,
-                        const Maximum& maximum, const Settings& settings, Hypothesis& hypothesis);
-
-/// Least-squares rigid transform with `to[i] ~ T * from[i]` (Umeyama without scale); needs at least 3 pairs.
-Eigen::Isometry3d fitRigid(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to);
 
 }  // namespace sks

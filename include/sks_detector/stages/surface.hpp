@@ -36,9 +36,6 @@ struct Surface : PointGrid {
 /// @param cell edge of the rows of the neighbour search [m]; best at about the smallest search radius
 Surface makeSurface(const Cloud& cloud, double cell, int threads = 1);
 
-/// Estimates and orients the normal at every point. Deterministic for any number of threads.
-void estimateNormals(Surface& surface, const SurfaceSettings& settings, Orientation orientation, int threads);
-
 /// A sanitized cloud, thinned, sorted and with normals: the input of every later stage.
 Surface prepareSurface(const Cloud& sanitized, const SurfaceSettings& settings, Orientation orientation, int threads);
 

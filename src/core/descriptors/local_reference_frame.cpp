@@ -8,7 +8,7 @@
 #include <Eigen/Geometry>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/local_reference_frame.cpp"
+#define HWY_TARGET_INCLUDE "core/descriptors/local_reference_frame.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>

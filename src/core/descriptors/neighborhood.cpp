@@ -4,7 +4,7 @@
 #include <cmath>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/neighborhood.cpp"
+#define HWY_TARGET_INCLUDE "core/descriptors/neighborhood.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>

@@ -11,7 +11,7 @@
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/shot.cpp"
+#define HWY_TARGET_INCLUDE "core/descriptors/shot.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>

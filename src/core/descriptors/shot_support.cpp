@@ -2,7 +2,7 @@
 #include "core/descriptors/shot_support.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/shot_support.cpp"
+#define HWY_TARGET_INCLUDE "core/descriptors/shot_support.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>

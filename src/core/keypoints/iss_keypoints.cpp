@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/stages/keypoints.hpp>
+#include "core/keypoints/iss_keypoints.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sks_detector/stages/keypoints.hpp>
 
+#include "core/keypoints/iss_keypoints.hpp"
 #include "core/surface/voxels.hpp"
 
 namespace sks {

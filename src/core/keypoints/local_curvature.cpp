@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/local_curvature.cpp"
+#define HWY_TARGET_INCLUDE "core/keypoints/local_curvature.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sparse keypoint selection (section 4): keypoints are ranked by the Gaussian curvature of their local surface.
-#include <sks_detector/stages/keypoints.hpp>
+#include "core/keypoints/sparse_selection.hpp"
 
 #include <algorithm>
 #include <cmath>

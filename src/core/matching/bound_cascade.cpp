@@ -27,13 +27,13 @@ private:
 
   /// What the sampled pairs lose of their distance if two groups become one.
   float cost(std::size_t i, std::size_t j) const;
-  void findPartner(std::size_t i);
+  void findNearestGroup(std::size_t i);
 
   std::vector<Group> groups_;
   std::vector<std::size_t> alive_;    // groups that stand for themselves, ascending
   std::vector<std::size_t> leader_;   // of each bin: the group that holds it
-  std::vector<std::size_t> partner_;  // of each group: the later one that it is merged with at least cost
-  std::vector<float> partner_cost_;
+  std::vector<std::size_t> nearest_;  // of each group: the later one that it is merged with at least cost
+  std::vector<float> nearest_cost_;
 };
 
 float chiTerm(float a, float b) {
@@ -41,7 +41,7 @@ float chiTerm(float a, float b) {
 }
 
 Agglomeration::Agglomeration(const DescriptorMatrix& words)
-    : groups_(words.cols()), leader_(words.cols()), partner_(words.cols()), partner_cost_(words.cols()) {
+    : groups_(words.cols()), leader_(words.cols()), nearest_(words.cols()), nearest_cost_(words.cols()) {
   std::mt19937 random(1);
   std::vector<const float*> first, second;
   std::vector<float> weight;  // near and far pairs count alike
@@ -60,7 +60,7 @@ Agglomeration::Agglomeration(const DescriptorMatrix& words)
       group.term.push_back(chiTerm(group.a[s], group.b[s]));
     }
     // Merging bins that no sampled word has anything in costs nothing: they are one group from the start. One by one
-    // they would be every other bin's partner in turn, and each merge would look for all partners again.
+    // they would be every other bin's nearest in turn, and each merge would look for all nearest groups again.
     const auto isZero = [](float value) { return value == 0; };
     const bool empty =
         std::all_of(group.a.begin(), group.a.end(), isZero) && std::all_of(group.b.begin(), group.b.end(), isZero);
@@ -68,7 +68,7 @@ Agglomeration::Agglomeration(const DescriptorMatrix& words)
     if (empty && empties == words.cols()) empties = bin;
     if (leader_[bin] == bin) alive_.push_back(bin);
   }
-  for (const std::size_t i : alive_) findPartner(i);
+  for (const std::size_t i : alive_) findNearestGroup(i);
 }
 
 float Agglomeration::cost(std::size_t i, std::size_t j) const {
@@ -76,20 +76,20 @@ float Agglomeration::cost(std::size_t i, std::size_t j) const {
   return mergingCost({p.a.data(), p.b.data(), p.term.data()}, {q.a.data(), q.b.data(), q.term.data()}, sample_pairs);
 }
 
-void Agglomeration::findPartner(std::size_t i) {
-  partner_cost_[i] = std::numeric_limits<float>::infinity();
+void Agglomeration::findNearestGroup(std::size_t i) {
+  nearest_cost_[i] = std::numeric_limits<float>::infinity();
   for (auto j = std::upper_bound(alive_.begin(), alive_.end(), i); j != alive_.end(); ++j) {
     const float c = cost(i, *j);
-    if (c < partner_cost_[i]) {
-      partner_cost_[i] = c;
-      partner_[i] = *j;
+    if (c < nearest_cost_[i]) {
+      nearest_cost_[i] = c;
+      nearest_[i] = *j;
     }
   }
 }
 
 void Agglomeration::mergeCheapest() {
-  const auto cheaper = [&](std::size_t a, std::size_t b) { return partner_cost_[a] < partner_cost_[b]; };
-  const std::size_t kept = *std::min_element(alive_.begin(), alive_.end(), cheaper), gone = partner_[kept];
+  const auto cheaper = [&](std::size_t a, std::size_t b) { return nearest_cost_[a] < nearest_cost_[b]; };
+  const std::size_t kept = *std::min_element(alive_.begin(), alive_.end(), cheaper), gone = nearest_[kept];
   Group &group = groups_[kept], &other = groups_[gone];
   for (std::size_t s = 0; s < sample_pairs; ++s) {
     group.a[s] += other.a[s];
@@ -99,14 +99,14 @@ void Agglomeration::mergeCheapest() {
   std::replace(leader_.begin(), leader_.end(), gone, kept);
   alive_.erase(std::lower_bound(alive_.begin(), alive_.end(), gone));
   for (const std::size_t i : alive_) {
-    const bool stale = i == kept || (i < gone && (partner_[i] == kept || partner_[i] == gone));
+    const bool stale = i == kept || (i < gone && (nearest_[i] == kept || nearest_[i] == gone));
     if (stale) {
-      findPartner(i);
+      findNearestGroup(i);
     } else if (i < kept) {
       const float c = cost(i, kept);
-      if (c < partner_cost_[i]) {
-        partner_cost_[i] = c;
-        partner_[i] = kept;
+      if (c < nearest_cost_[i]) {
+        nearest_cost_[i] = c;
+        nearest_[i] = kept;
       }
     }
   }

@@ -4,7 +4,7 @@
 #include <hwy/cache_control.h>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/chi_squared.cpp"
+#define HWY_TARGET_INCLUDE "core/matching/chi_squared.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>

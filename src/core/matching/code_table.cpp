@@ -5,7 +5,7 @@
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/code_table.cpp"
+#define HWY_TARGET_INCLUDE "core/matching/code_table.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>

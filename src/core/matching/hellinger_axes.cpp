@@ -7,7 +7,7 @@
 #include <Eigen/QR>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/hellinger_axes.cpp"
+#define HWY_TARGET_INCLUDE "core/matching/hellinger_axes.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>

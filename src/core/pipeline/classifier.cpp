@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "evaluation/classification.hpp"
+#include "core/pipeline/classifier.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/pipeline/isolated_object.hpp"
-#include "core/voting/hough_hypotheses.hpp"
+#include "core/voting/maxima.hpp"
 #include "core/voting/vote_density.hpp"
 
 namespace sks {

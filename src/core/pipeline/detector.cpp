@@ -7,6 +7,7 @@
 
 #include "core/pipeline/scene_description.hpp"
 #include "core/pipeline/stopwatch.hpp"
+#include "core/verification/refinement.hpp"
 #include "core/verification/score.hpp"
 #include "core/verification/verification.hpp"
 #include "core/voting/hough_hypotheses.hpp"
@@ -91,7 +92,10 @@ DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) con
   } else {
     const auto maxima = findAllMaxima(scene.votes, settings_, threads);
     times.voting += stage.lap();
-    hypotheses = houghHypotheses(*codebook_, scene.votes, maxima, scene.surface, settings_, threads);
+    hypotheses = houghHypotheses(*codebook_, scene.votes, maxima, settings_);
+    if (settings_.refinement.iterations > 0) {
+      refineHypotheses(hypotheses, *codebook_, scene.surface, settings_.refinement, threads);
+    }
   }
   for (const Hypothesis& hypothesis : hypotheses) {
     result.detections.push_back(toDetection(*codebook_, hypothesis, settings_));
@@ -101,13 +105,6 @@ DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) con
   times.total = total.lap();
   result.counts.hypotheses = result.detections.size();
   return result;
-}
-
-std::vector<Detection> DetectionResult::above(double threshold) const {
-  std::vector<Detection> kept;
-  std::copy_if(detections.begin(), detections.end(), std::back_inserter(kept),
-               [&](const Detection& d) { return d.score >= threshold; });
-  return kept;
 }
 
 }  // namespace sks

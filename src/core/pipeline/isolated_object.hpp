@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
+#include "core/pipeline/classifier.hpp"
 #include "core/pipeline/scene_description.hpp"
-#include "evaluation/classification.hpp"
 
 namespace sks {
 

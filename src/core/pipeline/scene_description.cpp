@@ -5,6 +5,7 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/keypoints/sparse_selection.hpp"
 #include "core/pipeline/stopwatch.hpp"
 #include "core/surface/sanitize.hpp"
 

@@ -10,7 +10,7 @@
 #include "core/surface/pinhole_fit.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/image_normals.cpp"
+#define HWY_TARGET_INCLUDE "core/surface/image_normals.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <sks_detector/stages/surface.hpp>
+#include "core/surface/normals.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,6 @@
 
 namespace sks {
 namespace {
-
-constexpr double cell_margin = 1.01;  // a cell a little larger than the radius has its neighbours in 3 x 3 rows
 
 /// Turns the normals of points `begin` to `end` - 1 towards the sensor.
 void faceSensor(Surface& surface, std::size_t begin, std::size_t end) {
@@ -56,20 +54,13 @@ void estimateNormals(Surface& surface, const SurfaceSettings& settings, Orientat
   if (orientation == Orientation::outward) orientOutward(surface, threads);
 }
 
-Surface prepareSurface(const Cloud& sanitized, const SurfaceSettings& settings, Orientation orientation, int threads) {
-  const double cell = cell_margin * settings.normal_radius;
-  Surface surface = settings.resolution > 0 ? makeSurface(thin(sanitized, settings.resolution, threads), cell, threads)
-                                            : makeSurface(sanitized, cell, threads);
+bool takeImageNormals(Surface& surface, const Cloud& sanitized, const SurfaceSettings& settings, int threads) {
   std::vector<Eigen::Vector3f> normals;
-  if (orientation == Orientation::sensor && settings.resolution == 0 &&
-      imageNormals(sanitized, settings, threads, normals)) {
-    takeNormals(surface, normals, threads);
-    surface.orientation = orientation;
-    faceSensor(surface, 0, surface.size());
-  } else {
-    estimateNormals(surface, settings, orientation, threads);
-  }
-  return surface;
+  if (!imageNormals(sanitized, settings, threads, normals)) return false;
+  takeNormals(surface, normals, threads);
+  surface.orientation = Orientation::sensor;
+  faceSensor(surface, 0, surface.size());
+  return true;
 }
 
 }  // namespace sks

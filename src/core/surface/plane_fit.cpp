@@ -9,7 +9,7 @@
 #include <Eigen/Geometry>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/plane_fit.cpp"
+#define HWY_TARGET_INCLUDE "core/surface/plane_fit.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>

@@ -6,7 +6,7 @@
 #include "core/surface/plane_fit.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/plane_fit_at_points.cpp"
+#define HWY_TARGET_INCLUDE "core/surface/plane_fit_at_points.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>

@@ -4,7 +4,7 @@
 #include <sks_detector/stages/point_grid.hpp>
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/point_grid_runs.cpp"
+#define HWY_TARGET_INCLUDE "core/surface/point_grid_runs.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>

@@ -4,22 +4,13 @@
 #include <algorithm>
 
 #include "core/surface/color_space.hpp"
+#include "core/surface/normals.hpp"
 #include "core/surface/voxels.hpp"
 
 namespace sks {
-
-Surface makeSurface(const Cloud& cloud, double cell, int threads) {
-  Surface surface(cloud.points, cell, threads);
-  surface.sensor_origin = cloud.sensor_origin;
-  if (cloud.hasColor()) {
-    surface.color.resize(surface.size());
-#pragma omp parallel for schedule(static) num_threads(threads)
-    for (std::size_t i = 0; i < surface.size(); ++i) surface.color[i] = toScaledLab(cloud.colors[surface.source[i]]);
-  }
-  return surface;
-}
-
 namespace {
+
+constexpr double cell_margin = 1.01;  // a cell a little larger than the radius has its neighbours in 3 x 3 rows
 
 /// Of the points of each occupied cube the index of the one nearest to their centroid.
 std::vector<std::uint32_t> nearestToCentroids(const std::vector<Eigen::Vector3f>& points, double edge, int threads) {
@@ -36,6 +27,17 @@ std::vector<std::uint32_t> nearestToCentroids(const std::vector<Eigen::Vector3f>
 
 }  // namespace
 
+Surface makeSurface(const Cloud& cloud, double cell, int threads) {
+  Surface surface(cloud.points, cell, threads);
+  surface.sensor_origin = cloud.sensor_origin;
+  if (cloud.hasColor()) {
+    surface.color.resize(surface.size());
+#pragma omp parallel for schedule(static) num_threads(threads)
+    for (std::size_t i = 0; i < surface.size(); ++i) surface.color[i] = toScaledLab(cloud.colors[surface.source[i]]);
+  }
+  return surface;
+}
+
 Cloud thin(const Cloud& cloud, double edge, int threads) {
   Cloud thinned;
   thinned.sensor_origin = cloud.sensor_origin;
@@ -49,6 +51,18 @@ Cloud thin(const Cloud& cloud, double edge, int threads) {
 
 std::vector<std::uint32_t> thinnedIndices(const PointGrid& points, double edge) {
   return nearestToCentroids(points.positions(), edge, 1);
+}
+
+Surface prepareSurface(const Cloud& sanitized, const SurfaceSettings& settings, Orientation orientation, int threads) {
+  const double cell = cell_margin * settings.normal_radius;
+  const bool thins = settings.resolution > 0;
+  Surface surface = thins ? makeSurface(thin(sanitized, settings.resolution, threads), cell, threads)
+                          : makeSurface(sanitized, cell, threads);
+  const bool may_be_image = orientation == Orientation::sensor && !thins;
+  if (!may_be_image || !takeImageNormals(surface, sanitized, settings, threads)) {
+    estimateNormals(surface, settings, orientation, threads);
+  }
+  return surface;
 }
 
 }  // namespace sks

@@ -14,14 +14,14 @@ constexpr float normal_agreement = 0.7f;  // cosine; about 45 degrees
 /// Farthest that the pairs of a round may lie apart [m]: shrinks geometrically from the start to the end distance.
 double pairDistance(const RefinementSettings& settings, int round);
 
-/// Normal equations of the small motion that brings the model's points onto the planes of their partners, in least
-/// squares with Tukey weights.
+/// Normal equations of the small motion that brings the model's points onto the planes of their correspondences, in
+/// least squares with Tukey weights.
 class PointToPlane {
 public:
   /// @param pivot that the motion turns about; near the points, which keeps the equations well conditioned
   explicit PointToPlane(const Eigen::Vector3d& pivot) : pivot_(pivot) {}
 
-  /// A point of the model, mapped into the scene, and its partner there with its normal.
+  /// A point of the model, mapped into the scene, and its corresponding point there with its normal.
   /// @param scale [m] pairs whose distance from the plane is larger do not count
   void add(const Eigen::Vector3d& model, const Eigen::Vector3d& scene, const Eigen::Vector3d& normal, double scale);
 

@@ -25,12 +25,12 @@ Eigen::Isometry3d poseOf(const Vote& vote, const Codeword& word) {
 std::vector<PoseCandidate> mostPromising(std::vector<PoseCandidate> candidates, const Codebook& codebook,
                                          const Settings& settings) {
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const PoseCandidate& a, const PoseCandidate& b) { return a.promise > b.promise; });
+                   [](const PoseCandidate& a, const PoseCandidate& b) { return a.pre_score > b.pre_score; });
   const double radius = settings.voting.suppression_radius;
   std::vector<PoseCandidate> kept;
   std::vector<std::pair<Eigen::Vector3d, std::uint32_t>> places;  // and views
   for (const PoseCandidate& candidate : candidates) {
-    if (candidate.promise <= 0 || int(kept.size()) >= settings.verification.candidates) break;
+    if (candidate.pre_score <= 0 || int(kept.size()) >= settings.verification.candidates) break;
     const Eigen::Vector3d place = candidate.T_scene_model * codebook.views[candidate.view].center().cast<double>();
     int near = 0, of_view = 0;
     for (const auto& [other, view] : places) {
@@ -47,7 +47,7 @@ std::vector<PoseCandidate> mostPromising(std::vector<PoseCandidate> candidates, 
 
 }  // namespace
 
-std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<Distinctiveness>& telling,
+std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<SurfaceWeights>& surface_weights,
                                           const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
                                           const Settings& settings, int threads) {
   std::vector<PoseCandidate> all;
@@ -61,10 +61,10 @@ std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::v
       PoseCandidate& candidate = candidates[i];
       candidate = {object, word.view, poseOf(votes[i], word), 0};
       const RoughSupport support =
-          glance(codebook.views[word.view], telling[word.view], scene, candidate.T_scene_model);
+          roughSupport(codebook.views[word.view], surface_weights[word.view], scene, candidate.T_scene_model);
       if (support.points < fewest_supported) continue;
       const double share = support.supported / (support.visible + prior_weight);
-      candidate.promise = share * std::sqrt(support.supported * density.at(votes[i].position));
+      candidate.pre_score = share * std::sqrt(support.supported * density.at(votes[i].position));
     }
     const std::vector<PoseCandidate> best = mostPromising(std::move(candidates), codebook, settings);
     all.insert(all.end(), best.begin(), best.end());

@@ -13,12 +13,12 @@ namespace {
 constexpr float weight_radius = 0.02f;  // [m] the scale of the keypoints' local surfaces
 constexpr float color_weight = 0.5f;    // of varying colours beside varying normals
 constexpr float grazing = 0.17f;        // cosine; surfaces turned away by more than 80 degrees are hardly measured
-constexpr std::size_t glance_points = 80;
-constexpr float glance_distance = 0.015f;   // [m] rough poses are that far off
-constexpr float glance_agreement = 0.7f;    // cosine, about 45 degrees
-constexpr float glance_occlusion = 0.02f;   // [m]
-constexpr float glance_color_slack = 1.5f;  // of the tolerance: prints are off by as much as the pose
-constexpr double unmeasured = 0.5;          // weight of what should be seen where the sensor measured nothing
+constexpr std::size_t rough_points = 80;
+constexpr float rough_distance = 0.015f;   // [m] rough poses are that far off
+constexpr float rough_agreement = 0.7f;    // cosine, about 45 degrees
+constexpr float rough_occlusion = 0.02f;   // [m]
+constexpr float rough_color_slack = 1.5f;  // of the tolerance: prints are off by as much as the pose
+constexpr double unmeasured = 0.5;         // weight of what should be seen where the sensor measured nothing
 
 /// One point of a stored surface in the scene.
 struct Placed {
@@ -38,7 +38,7 @@ void forEachFacing(const TrainingView& view, const Surface& scene, const Eigen::
 }
 
 /// The scene point that confirms a point of a stored surface, and by how much.
-struct Partner {
+struct Correspondence {
   std::uint32_t point = no_point;
   float agreement = 1;  // of the colours
 };
@@ -46,21 +46,22 @@ struct Partner {
 /// The scene point within `distance` that the sensor saw in this direction, or else the one whose normal agrees best;
 /// `no_point` if none does by `agreement`. Prints shift by some pixels where a pose is a little off: of all such
 /// points, the one of the most similar colour counts.
-Partner partnerOf(const Placed& placed, const Sighting& seen, const Eigen::Vector3f* color, const SceneView& scene,
-                  float distance, float agreement, Partners partners, std::vector<PointGrid::Run>& runs) {
+Correspondence correspondenceOf(const Placed& placed, const Sighting& seen, const Eigen::Vector3f* color,
+                                const SceneView& scene, float distance, float agreement, CorrespondenceSearch search,
+                                std::vector<PointGrid::Run>& runs) {
   const Surface& surface = scene.surface;
-  Partner partner;
+  Correspondence correspondence;
   const bool seen_there = seen.hasPoint() && placed.normal.dot(seen.cell->normal()) > agreement &&
                           (seen.cell->position() - placed.point).squaredNorm() <= distance * distance;
-  if (seen_there && (color == nullptr || partners == Partners::in_sight)) {
-    partner.point = scene.range_image.pointOf(seen);
+  if (seen_there && (color == nullptr || search == CorrespondenceSearch::along_ray)) {
+    correspondence.point = scene.range_image.pointOf(seen);
     if (color != nullptr) {
-      const float difference = squaredColorDifference(*color, surface.colorAt(partner.point));
-      partner.agreement = colorAgreement(difference, scene.color_tolerance);
+      const float difference = squaredColorDifference(*color, surface.colorAt(correspondence.point));
+      correspondence.agreement = colorAgreement(difference, scene.color_tolerance);
     }
-    return partner;
+    return correspondence;
   }
-  if (partners == Partners::in_sight) return partner;
+  if (search == CorrespondenceSearch::along_ray) return correspondence;
   float best = agreement, difference = std::numeric_limits<float>::infinity();
   surface.forEachNeighbor(placed.point, distance, runs, [&](std::uint32_t j, float) {
     const float cosine = placed.normal.dot(surface.normal(j));
@@ -69,11 +70,11 @@ Partner partnerOf(const Placed& placed, const Sighting& seen, const Eigen::Vecto
     }
     if (cosine > best) {
       best = cosine;
-      partner.point = j;
+      correspondence.point = j;
     }
   });
-  if (color != nullptr) partner.agreement = colorAgreement(difference, scene.color_tolerance);
-  return partner;
+  if (color != nullptr) correspondence.agreement = colorAgreement(difference, scene.color_tolerance);
+  return correspondence;
 }
 
 }  // namespace
@@ -84,7 +85,7 @@ SceneView::SceneView(const Surface& scene, const Settings& settings, int threads
       planes(findLargePlanes(scene, threads)),
       color_tolerance(scene.hasColor() ? float(settings.verification.color_tolerance) : 0) {}
 
-Distinctiveness::Distinctiveness(const TrainingView& view) : shape(view.surface_points.size(), 0.0f) {
+SurfaceWeights::SurfaceWeights(const TrainingView& view) : shape(view.surface_points.size(), 0.0f) {
   const PointGrid grid(view.surface_points, weight_radius);
   std::vector<PointGrid::Run> runs;
   for (std::size_t i = 0; i < shape.size(); ++i) {
@@ -102,9 +103,9 @@ Distinctiveness::Distinctiveness(const TrainingView& view) : shape(view.surface_
   }
 }
 
-PoseEvidence examinePose(const TrainingView& view, const Distinctiveness& telling, const SceneView& scene,
+PoseEvidence examinePose(const TrainingView& view, const SurfaceWeights& surface_weights, const SceneView& scene,
                          const Settings& settings, const Eigen::Isometry3d& T_scene_model, std::size_t most_points,
-                         Partners partners) {
+                         CorrespondenceSearch search) {
   const VerificationSettings& verification = settings.verification;
   const std::size_t stride = view.surface_points.size() / most_points + 1;
   const double area = double(stride) * settings.training.surface_resolution * settings.training.surface_resolution;
@@ -112,44 +113,46 @@ PoseEvidence examinePose(const TrainingView& view, const Distinctiveness& tellin
   const float agreement = float(std::cos(verification.support_angle));
   const float object_size = view.extent().maxCoeff();
   const bool compares_color = scene.comparesColor(view);
-  const std::vector<float>& weights = compares_color ? telling.shape_and_color : telling.shape;
+  const std::vector<float>& weights = compares_color ? surface_weights.shape_and_color : surface_weights.shape;
   PoseEvidence evidence;
-  evidence.partners.reserve(view.surface_points.size() / stride + 1);
+  evidence.confirming.reserve(view.surface_points.size() / stride + 1);
   thread_local std::vector<PointGrid::Run> runs;  // kept from pose to pose
   forEachFacing(view, scene.surface, T_scene_model, stride, [&](std::size_t i, const Placed& placed) {
     const double weighted = area * weights[i];
     evidence.facing += area;
     const Eigen::Vector3f* color = compares_color ? &view.surface_colors[i] : nullptr;
     const Sighting seen = scene.range_image.look(placed.point, float(verification.occlusion_distance));
-    const Partner partner = partnerOf(placed, seen, color, scene, distance, agreement, partners, runs);
-    if (partner.point == no_point) {
+    const Correspondence correspondence =
+        correspondenceOf(placed, seen, color, scene, distance, agreement, search, runs);
+    if (correspondence.point == no_point) {
       if (seen.sight == Sight::unknown) evidence.weighted_visible += unmeasured * weighted;
       if (seen.sight == Sight::at || seen.sight == Sight::in_front) evidence.weighted_visible += weighted;
       return;
     }
-    const Eigen::Vector3f point = scene.surface.point(partner.point), normal = scene.surface.normal(partner.point);
+    const Eigen::Vector3f point = scene.surface.point(correspondence.point),
+                          normal = scene.surface.normal(correspondence.point);
     if (planeExtentAt(scene.planes, point, normal) > object_size) return;
-    evidence.supported += area * partner.agreement;
+    evidence.supported += area * correspondence.agreement;
     evidence.weighted_visible += weighted;
-    evidence.weighted_supported += weighted * partner.agreement;
-    evidence.partners.push_back(partner.point);
+    evidence.weighted_supported += weighted * correspondence.agreement;
+    evidence.confirming.push_back(correspondence.point);
   });
   return evidence;
 }
 
-RoughSupport glance(const TrainingView& view, const Distinctiveness& telling, const SceneView& scene,
-                    const Eigen::Isometry3d& T_scene_model) {
+RoughSupport roughSupport(const TrainingView& view, const SurfaceWeights& surface_weights, const SceneView& scene,
+                          const Eigen::Isometry3d& T_scene_model) {
   const Surface& surface = scene.surface;
-  const std::size_t stride = std::max<std::size_t>(1, view.surface_points.size() / glance_points);
+  const std::size_t stride = std::max<std::size_t>(1, view.surface_points.size() / rough_points);
   const bool compares_color = scene.comparesColor(view);
-  const std::vector<float>& weights = compares_color ? telling.shape_and_color : telling.shape;
-  const float color_tolerance = glance_color_slack * scene.color_tolerance;
+  const std::vector<float>& weights = compares_color ? surface_weights.shape_and_color : surface_weights.shape;
+  const float color_tolerance = rough_color_slack * scene.color_tolerance;
   RoughSupport support;
   forEachFacing(view, surface, T_scene_model, stride, [&](std::size_t i, const Placed& placed) {
-    const Sighting seen = scene.range_image.look(placed.point, glance_occlusion);
+    const Sighting seen = scene.range_image.look(placed.point, rough_occlusion);
     const Sight sight = seen.sight;
-    const bool confirmed = seen.hasPoint() && placed.normal.dot(seen.cell->normal()) > glance_agreement &&
-                           (seen.cell->position() - placed.point).squaredNorm() < glance_distance * glance_distance;
+    const bool confirmed = seen.hasPoint() && placed.normal.dot(seen.cell->normal()) > rough_agreement &&
+                           (seen.cell->position() - placed.point).squaredNorm() < rough_distance * rough_distance;
     if (confirmed) {
       ++support.points;
       const double agreement =

@@ -29,8 +29,8 @@ struct SceneView {
 };
 
 /// How telling each point of a view's stored surface is, in [0, 1]: flat parts fit many things.
-struct Distinctiveness {
-  explicit Distinctiveness(const TrainingView& view);
+struct SurfaceWeights {
+  explicit SurfaceWeights(const TrainingView& view);
 
   std::vector<float> shape;            ///< how much the normals around it vary
   std::vector<float> shape_and_color;  ///< ... and the colours
@@ -39,23 +39,23 @@ struct Distinctiveness {
 /// What the scene says to a view's stored surface in some pose. Areas are in m^2; weighted ones are multiplied with how
 /// telling the surface is. What is hidden, or lies on a plane larger than the object, speaks neither way.
 struct PoseEvidence {
-  double facing = 0;                    ///< area that faces the sensor
-  double supported = 0;                 ///< of that, confirmed by scene points with matching normals and colours
-  double weighted_visible = 0;          ///< weighted area that should be seen; half where nothing was measured
-  double weighted_supported = 0;        ///< of that, confirmed
-  std::vector<std::uint32_t> partners;  ///< the scene points that confirm it
+  double facing = 0;                      ///< area that faces the sensor
+  double supported = 0;                   ///< of that, confirmed by scene points with matching normals and colours
+  double weighted_visible = 0;            ///< weighted area that should be seen; half where nothing was measured
+  double weighted_supported = 0;          ///< of that, confirmed
+  std::vector<std::uint32_t> confirming;  ///< the scene points that confirm it
 };
 
 /// Which scene points may confirm a point of a stored surface.
-enum class Partners {
-  in_sight,  ///< the one that the sensor saw in its direction
-  nearby     ///< all around it
+enum class CorrespondenceSearch {
+  along_ray,  ///< the one that the sensor saw in its direction
+  nearby      ///< all around it
 };
 
 /// @param most_points of the stored surface that are examined, spread evenly
-PoseEvidence examinePose(const TrainingView& view, const Distinctiveness& telling, const SceneView& scene,
+PoseEvidence examinePose(const TrainingView& view, const SurfaceWeights& surface_weights, const SceneView& scene,
                          const Settings& settings, const Eigen::Isometry3d& T_scene_model,
-                         std::size_t most_points = 1500, Partners partners = Partners::nearby);
+                         std::size_t most_points = 1500, CorrespondenceSearch search = CorrespondenceSearch::nearby);
 
 /// A quick look at a rough pose, along the sensor's rays only: how much of up to 80 points of the view's surface the
 /// scene confirms. Points count as much as they are telling.
@@ -65,7 +65,7 @@ struct RoughSupport {
   double visible = 0;    ///< weights of all that should be seen; half where nothing was measured
 };
 
-RoughSupport glance(const TrainingView& view, const Distinctiveness& telling, const SceneView& scene,
-                    const Eigen::Isometry3d& T_scene_model);
+RoughSupport roughSupport(const TrainingView& view, const SurfaceWeights& surface_weights, const SceneView& scene,
+                          const Eigen::Isometry3d& T_scene_model);
 
 }  // namespace sks

@@ -6,7 +6,7 @@
 #include "core/verification/point_to_plane.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/projective_refinement.cpp"
+#define HWY_TARGET_INCLUDE "core/verification/projective_refinement.cpp"
 #include <hwy/foreach_target.h>
 
 #include <hwy/highway.h>

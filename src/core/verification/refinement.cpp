@@ -10,7 +10,7 @@
 namespace sks {
 namespace {
 
-/// A point of the model, mapped into the scene, with its partner there.
+/// A point of the model, mapped into the scene, with its corresponding point there.
 struct PointPair {
   Eigen::Vector3d model, scene, normal;
 };
@@ -25,15 +25,16 @@ void findPairs(const std::vector<Eigen::Vector3f>& points, const std::vector<Eig
     const Eigen::Vector3f p = T * points[i], n = T.linear() * normals[i];
     if (n.dot(scene.sensor_origin - p) <= 0) continue;
     float nearest = std::numeric_limits<float>::infinity();
-    std::uint32_t partner = 0;
+    std::uint32_t nearest_point = 0;
     scene.forEachNeighbor(p, distance, runs, [&](std::uint32_t j, float squared) {
       if (squared < nearest) {
         nearest = squared;
-        partner = j;
+        nearest_point = j;
       }
     });
-    if (!std::isfinite(nearest) || !(n.dot(scene.normal(partner)) > normal_agreement)) continue;
-    pairs.push_back({p.cast<double>(), scene.point(partner).cast<double>(), scene.normal(partner).cast<double>()});
+    if (!std::isfinite(nearest) || !(n.dot(scene.normal(nearest_point)) > normal_agreement)) continue;
+    pairs.push_back(
+        {p.cast<double>(), scene.point(nearest_point).cast<double>(), scene.normal(nearest_point).cast<double>()});
   }
 }
 
@@ -57,6 +58,20 @@ Eigen::Isometry3d refinePose(const std::vector<Eigen::Vector3f>& points, const s
     refined = system.motion() * refined;
   }
   return refined;
+}
+
+void refineHypotheses(std::vector<Hypothesis>& hypotheses, const Codebook& codebook, const Surface& scene,
+                      const RefinementSettings& settings, int threads) {
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    Hypothesis& hypothesis = hypotheses[i];
+    if (hypothesis.density < settings.min_density) continue;
+    const TrainingView& view = codebook.views[hypothesis.view];
+    const Eigen::Isometry3d T_model_box = hypothesis.T_scene_model.inverse() * hypothesis.T_scene_box;
+    hypothesis.T_scene_model =
+        refinePose(view.surface_points, view.surface_normals, scene, settings, hypothesis.T_scene_model);
+    hypothesis.T_scene_box = hypothesis.T_scene_model * T_model_box;
+  }
 }
 
 }  // namespace sks

@@ -5,7 +5,9 @@
 
 #include <Eigen/Geometry>
 
+#include <sks_detector/codebook.hpp>
 #include <sks_detector/settings.hpp>
+#include <sks_detector/stages/hypothesis.hpp>
 #include <sks_detector/stages/surface.hpp>
 
 namespace sks {
@@ -19,5 +21,10 @@ namespace sks {
 Eigen::Isometry3d refinePose(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
                              const Surface& scene, const RefinementSettings& settings,
                              const Eigen::Isometry3d& T_scene_model);
+
+/// The same for each hypothesis of at least `refinement.min_density`, against the surface of its training view; its box
+/// moves along. Deterministic for any number of threads.
+void refineHypotheses(std::vector<Hypothesis>& hypotheses, const Codebook& codebook, const Surface& scene,
+                      const RefinementSettings& settings, int threads);
 
 }  // namespace sks

@@ -22,7 +22,7 @@ constexpr double largest_claimed = 0.5;  // of the confirming points; else a hyp
 constexpr std::size_t first_points = 250, last_points = 1500;  // of a surface, examined before and after the choice
 // Of the evidence that scores 0.5: what has less is not worth the last rounds, or a search for more than what is in
 // sight.
-constexpr double plausible_share = 0.5, hopeless_share = 0.15;
+constexpr double plausible_fraction = 0.5, lowest_fraction = 0.15;
 
 /// Of ICP with nearest pairs, for poses that are a fraction of a millimetre off.
 RefinementSettings lastRounds(RefinementSettings settings) {
@@ -34,7 +34,7 @@ RefinementSettings lastRounds(RefinementSettings settings) {
 /// A hypothesis and the part of the scene that it explains.
 struct Examined {
   Hypothesis hypothesis;
-  std::vector<std::uint32_t> partners;
+  std::vector<std::uint32_t> confirming;
 };
 
 /// Of the density that votes have after this selection, what they would have after that of half the keypoints, for
@@ -101,13 +101,13 @@ void resolveConflicts(std::vector<Examined>& examined, const Surface& scene, flo
   std::vector<char> claimed(scene.size(), 0);
   std::vector<PointGrid::Run> runs;
   for (Examined& candidate : examined) {
-    const auto& partners = candidate.partners;
-    if (partners.empty()) continue;
-    const auto taken = std::count_if(partners.begin(), partners.end(), [&](std::uint32_t i) { return claimed[i]; });
-    const double share = double(taken) / double(partners.size());
+    const auto& confirming = candidate.confirming;
+    if (confirming.empty()) continue;
+    const auto taken = std::count_if(confirming.begin(), confirming.end(), [&](std::uint32_t i) { return claimed[i]; });
+    const double share = double(taken) / double(confirming.size());
     candidate.hypothesis.evidence *= 1 - share;
     if (share >= largest_claimed) continue;
-    for (const std::uint32_t i : partners) {
+    for (const std::uint32_t i : confirming) {
       scene.forEachNeighbor(scene.point(i), distance, runs, [&](std::uint32_t j, float) { claimed[j] = 1; });
     }
   }
@@ -116,20 +116,20 @@ void resolveConflicts(std::vector<Examined>& examined, const Surface& scene, flo
 }  // namespace
 
 Verifier::Verifier(std::shared_ptr<const Codebook> codebook) : codebook_(std::move(codebook)) {
-  telling_.reserve(codebook_->views.size());
+  weights_.reserve(codebook_->views.size());
   for (const TrainingView& view : codebook_->views) {
-    telling_.emplace_back(view);
+    weights_.emplace_back(view);
     largest_extent_ = std::max(largest_extent_, view.extent().maxCoeff());
   }
 }
 
 std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
                                             const Settings& settings, int threads) const {
-  const std::vector<PoseCandidate> candidates = poseCandidates(*codebook_, telling_, spaces, scene, settings, threads);
+  const std::vector<PoseCandidate> candidates = poseCandidates(*codebook_, weights_, spaces, scene, settings, threads);
   std::vector<VoteDensity> densities;
   densities.reserve(spaces.size());
   for (const auto& votes : spaces) densities.emplace_back(votes, settings.voting.bandwidth);
-  const auto examine = [&](Hypothesis hypothesis, std::size_t most_points, Partners partners) {
+  const auto examine = [&](Hypothesis hypothesis, std::size_t most_points, CorrespondenceSearch search) {
     const TrainingView& view = codebook_->views[hypothesis.view];
     hypothesis.T_scene_box = hypothesis.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
     hypothesis.box_size = view.extent().cast<double>();
@@ -137,14 +137,14 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
     hypothesis.density = densities[hypothesis.object].at(center);
     hypothesis.votes = densities[hypothesis.object].count(center);
     PoseEvidence evidence =
-        examinePose(view, telling_[hypothesis.view], scene, settings, hypothesis.T_scene_model, most_points, partners);
+        examinePose(view, weights_[hypothesis.view], scene, settings, hypothesis.T_scene_model, most_points, search);
     hypothesis.evidence = evidenceOf(evidence, densityAsOfHalf(hypothesis.density, settings.keypoints));
     if (scene.comparesColor(view)) hypothesis.evidence *= color_gain;
-    return Examined{std::move(hypothesis), std::move(evidence.partners)};
+    return Examined{std::move(hypothesis), std::move(evidence.confirming)};
   };
 
-  const double plausible = plausible_share * settings.verification.half_evidence;
-  const double hopeless = hopeless_share * settings.verification.half_evidence;
+  const double plausible = plausible_fraction * settings.verification.half_evidence;
+  const double lowest_evidence = lowest_fraction * settings.verification.half_evidence;
   std::vector<Examined> examined(candidates.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -154,9 +154,9 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
     hypothesis.view = candidate.view;
     hypothesis.T_scene_model =
         refineAlongRays(codebook_->views[candidate.view], scene, settings.refinement, candidate.T_scene_model);
-    examined[i] = examine(hypothesis, first_points, Partners::in_sight);
-    if (examined[i].hypothesis.evidence < hopeless) continue;
-    examined[i] = examine(std::move(hypothesis), first_points, Partners::nearby);
+    examined[i] = examine(hypothesis, first_points, CorrespondenceSearch::along_ray);
+    if (examined[i].hypothesis.evidence < lowest_evidence) continue;
+    examined[i] = examine(std::move(hypothesis), first_points, CorrespondenceSearch::nearby);
   }
   std::sort(examined.begin(), examined.end(), better);
   examined = suppressNonMaxima(std::move(examined), *codebook_, settings);
@@ -168,7 +168,7 @@ std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>
     const TrainingView& view = codebook_->views[hypothesis.view];
     hypothesis.T_scene_model = refinePose(view.surface_points, view.surface_normals, scene.surface,
                                           lastRounds(settings.refinement), hypothesis.T_scene_model);
-    examined[i] = examine(std::move(hypothesis), last_points, Partners::nearby);
+    examined[i] = examine(std::move(hypothesis), last_points, CorrespondenceSearch::nearby);
   }
   std::sort(examined.begin(), examined.end(), better);
   resolveConflicts(examined, scene.surface, float(settings.verification.support_distance));

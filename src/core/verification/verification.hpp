@@ -32,7 +32,7 @@ public:
 private:
   float largest_extent_ = 0;
   std::shared_ptr<const Codebook> codebook_;
-  std::vector<Distinctiveness> telling_;  // of the points of each view's stored surface
+  std::vector<SurfaceWeights> weights_;  // of the points of each view's stored surface
 };
 
 }  // namespace sks

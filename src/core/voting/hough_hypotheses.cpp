@@ -1,49 +1,121 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/voting/hough_hypotheses.hpp"
 
-#include "core/verification/refinement.hpp"
-#include "core/voting/mean_shift.hpp"
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "core/voting/ransac.hpp"
 
 namespace sks {
 namespace {
 
-void refine(std::vector<Hypothesis>& hypotheses, const Codebook& codebook, const Surface& scene,
-            const RefinementSettings& settings, int threads) {
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-    Hypothesis& hypothesis = hypotheses[i];
-    if (hypothesis.density < settings.min_density) continue;
-    const TrainingView& view = codebook.views[hypothesis.view];
-    const Eigen::Isometry3d T_model_box = hypothesis.T_scene_model.inverse() * hypothesis.T_scene_box;
-    hypothesis.T_scene_model =
-        refinePose(view.surface_points, view.surface_normals, scene, settings, hypothesis.T_scene_model);
-    hypothesis.T_scene_box = hypothesis.T_scene_model * T_model_box;
+struct FrameConsensus {
+  std::uint32_t view = 0;            // the one of the frame with most inliers
+  std::vector<std::uint32_t> votes;  // inliers, indices into the class's votes
+  Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
+};
+
+Eigen::Vector3f position(const Codebook& codebook, const Vote& vote) {
+  return codebook.words[vote.word].position;
+}
+
+std::uint32_t viewOf(const Codebook& codebook, const Vote& vote) {
+  return codebook.words[vote.word].view;
+}
+
+/// The view to which most of the votes belong; of equals the first.
+std::uint32_t mainView(const Codebook& codebook, const std::vector<Vote>& votes,
+                       const std::vector<std::uint32_t>& members) {
+  std::map<std::uint32_t, std::size_t> counts;
+  for (const std::uint32_t i : members) ++counts[viewOf(codebook, votes[i])];
+  const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+  return std::max_element(counts.begin(), counts.end(), fewer)->first;
+}
+
+constexpr double largest_turn = 40 * EIGEN_PI / 180;  // between a vote's own rotation and the pose, in a shared frame
+
+/// Whether the local frames of a correspondence turn the model as the pose does.
+bool turnsAlike(const Vote& vote, const Eigen::Isometry3d& T_scene_model) {
+  const Eigen::Matrix3d difference = T_scene_model.linear().transpose() * vote.rotation.cast<double>();
+  return difference.trace() >= 1 + 2 * std::cos(largest_turn);
+}
+
+/// RANSAC over the votes of the training views of one frame. A shared frame offers many pairs, of which some fit any
+/// motion by chance: there, a vote's own rotation must fit as well.
+FrameConsensus consensusOfFrame(const Codebook& codebook, const std::vector<Vote>& votes,
+                                const std::vector<std::uint32_t>& members, const RansacSettings& settings) {
+  std::vector<Eigen::Vector3d> model, scene;
+  for (const std::uint32_t i : members) {
+    model.emplace_back(position(codebook, votes[i]).cast<double>());
+    scene.emplace_back(votes[i].keypoint.cast<double>());
   }
+  FrameConsensus consensus;
+  const RigidConsensus found = rigidRansac(model, scene, settings);
+  consensus.T_scene_model = found.T_to_from;
+  const bool shared = !codebook.views[viewOf(codebook, votes[members.front()])].frame.empty();
+  for (const std::size_t i : found.inliers) {
+    if (!shared || turnsAlike(votes[members[i]], found.T_to_from)) consensus.votes.push_back(members[i]);
+  }
+  if (!consensus.votes.empty()) consensus.view = mainView(codebook, votes, consensus.votes);
+  return consensus;
+}
+
+/// Mean of the extents that the votes' views bring along.
+Eigen::Vector3d meanExtent(const Codebook& codebook, const std::vector<Vote>& votes,
+                           const std::vector<std::uint32_t>& members) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const std::uint32_t i : members) {
+    sum += codebook.views[viewOf(codebook, votes[i])].extent().cast<double>();
+  }
+  return sum / double(members.size());
 }
 
 }  // namespace
 
-std::vector<ObjectMaximum> findAllMaxima(const std::vector<std::vector<Vote>>& spaces, const Settings& settings,
-                                         int threads) {
-  std::vector<std::vector<Maximum>> by_object(spaces.size());
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-  for (std::size_t object = 0; object < spaces.size(); ++object) {
-    std::vector<Eigen::Vector3f> positions;
-    for (const Vote& vote : spaces[object]) positions.push_back(vote.position);
-    by_object[object] = findMaxima(positions, settings.voting);
-    const std::size_t limit = std::size_t(settings.detection.max_per_object);
-    if (by_object[object].size() > limit) by_object[object].resize(limit);
+bool estimateHypothesis(const Codebook& codebook, std::uint32_t object, const std::vector<Vote>& votes,
+                        const Maximum& maximum, const Settings& settings, Hypothesis& hypothesis) {
+  std::map<std::pair<std::string_view, std::uint32_t>, std::vector<std::uint32_t>> by_frame;
+  for (const std::uint32_t i : maximum.votes) {
+    const std::uint32_t view = viewOf(codebook, votes[i]);
+    const std::string_view frame = codebook.views[view].frame;
+    by_frame[{frame, frame.empty() ? view : 0}].push_back(i);
   }
-  std::vector<ObjectMaximum> maxima;
-  for (std::size_t object = 0; object < by_object.size(); ++object) {
-    for (Maximum& maximum : by_object[object]) maxima.push_back({std::uint32_t(object), std::move(maximum)});
+
+  FrameConsensus best;
+  std::vector<std::uint32_t> inliers;
+  for (const auto& [frame, members] : by_frame) {
+    if (members.size() < 3) {  // too few pairs to speak for or against a pose
+      inliers.insert(inliers.end(), members.begin(), members.end());
+      continue;
+    }
+    const FrameConsensus consensus = consensusOfFrame(codebook, votes, members, settings.ransac);
+    if (consensus.votes.size() < std::size_t(settings.ransac.min_inliers)) continue;
+    inliers.insert(inliers.end(), consensus.votes.begin(), consensus.votes.end());
+    if (consensus.votes.size() > best.votes.size()) best = consensus;
   }
-  return maxima;
+  if (best.votes.empty()) return false;
+  std::sort(inliers.begin(), inliers.end());
+
+  const TrainingView& view = codebook.views[best.view];
+  hypothesis.object = object;
+  hypothesis.view = best.view;
+  hypothesis.T_scene_model = best.T_scene_model;
+  hypothesis.T_scene_box = best.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
+  hypothesis.box_size = meanExtent(codebook, votes, best.votes);
+  hypothesis.votes = std::uint32_t(maximum.votes.size());
+  hypothesis.inliers = inliers;
+  std::vector<Eigen::Vector3f> positions;
+  positions.reserve(inliers.size());
+  for (const std::uint32_t i : inliers) positions.push_back(votes[i].position);
+  hypothesis.density = kernelDensity(maximum.position, positions, settings.voting.bandwidth);
+  return true;
 }
 
 std::vector<Hypothesis> houghHypotheses(const Codebook& codebook, const std::vector<std::vector<Vote>>& spaces,
-                                        const std::vector<ObjectMaximum>& maxima, const Surface& scene,
-                                        const Settings& settings, int threads) {
+                                        const std::vector<ObjectMaximum>& maxima, const Settings& settings) {
   std::vector<Hypothesis> hypotheses;
   for (const auto& [object, maximum] : maxima) {
     Hypothesis hypothesis;
@@ -51,7 +123,6 @@ std::vector<Hypothesis> houghHypotheses(const Codebook& codebook, const std::vec
       hypotheses.push_back(std::move(hypothesis));
     }
   }
-  if (settings.refinement.iterations > 0) refine(hypotheses, codebook, scene, settings.refinement, threads);
   return hypotheses;
 }
 

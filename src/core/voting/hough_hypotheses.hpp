@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <sks_detector/codebook.hpp>
 #include <sks_detector/settings.hpp>
 #include <sks_detector/stages/hypothesis.hpp>
-#include <sks_detector/stages/surface.hpp>
 #include <sks_detector/stages/voting.hpp>
+
+#include "core/voting/maxima.hpp"
 
 namespace sks {
 
-/// The maxima of one object's Hough space.
-struct ObjectMaximum {
-  std::uint32_t object = 0;
-  Maximum maximum;
-};
+/// RANSAC on the pairs {p_t, p_s} of a maximum's votes (section 3.2); then density, least-squares pose and box from
+/// the inliers. Pairs are compared within one model frame: that of a training view, or of all views that are
+/// registered to each other. The frame with most inliers gives the pose. Votes of frames with fewer than three pairs
+/// can be neither confirmed nor contradicted: they stay.
+/// @return false if fewer than min_inliers agree
+bool estimateHypothesis(const Codebook& codebook, std::uint32_t object, const std::vector<Vote>& votes,
+                        const Maximum& maximum, const Settings& settings, Hypothesis& hypothesis);
 
-/// Those of every object, strongest first within each object, at most `detection.max_per_object` of each.
-std::vector<ObjectMaximum> findAllMaxima(const std::vector<std::vector<Vote>>& spaces, const Settings& settings,
-                                         int threads);
-
-/// The maxima that pass RANSAC (section 3.2), refined where `refinement.iterations` says so.
+/// The maxima that pass RANSAC (section 3.2).
 std::vector<Hypothesis> houghHypotheses(const Codebook& codebook, const std::vector<std::vector<Vote>>& spaces,
-                                        const std::vector<ObjectMaximum>& maxima, const Surface& scene,
-                                        const Settings& settings, int threads);
+                                        const std::vector<ObjectMaximum>& maxima, const Settings& settings);
 
 }  // namespace sks

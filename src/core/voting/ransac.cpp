@@ -4,8 +4,6 @@
 #include <array>
 #include <random>
 
-#include <sks_detector/stages/hypothesis.hpp>
-
 namespace sks {
 namespace {
 

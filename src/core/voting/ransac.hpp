@@ -10,6 +10,9 @@
 
 namespace sks {
 
+/// Least-squares rigid transform with `to[i] ~ T * from[i]` (Umeyama without scale); needs at least 3 pairs.
+Eigen::Isometry3d fitRigid(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to);
+
 /// The rigid motion on which most pairs agree.
 struct RigidConsensus {
   std::vector<std::size_t> inliers;                             ///< ascending; empty if there is none

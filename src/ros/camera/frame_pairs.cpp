@@ -6,7 +6,7 @@
 namespace sks_detector {
 namespace {
 
-constexpr std::size_t longest_wait = 4;  // images that may pass before a partner is no longer waited for
+constexpr std::size_t longest_wait = 4;  // images that may pass before the other image is no longer waited for
 
 std::uint64_t difference(std::uint64_t a, std::uint64_t b) {
   return a < b ? b - a : a - b;

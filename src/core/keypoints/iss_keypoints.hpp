@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sks_detector/settings.hpp>
+#include <sks_detector/stages/keypoints.hpp>
+#include <sks_detector/stages/surface.hpp>
+
+namespace sks {
+
+/// Intrinsic shape signatures (Zhong 2009), by PCL.
+Keypoints issKeypoints(const Surface& surface, const KeypointSettings& settings, int threads);
+
+}  // namespace sks
