@@ -34,6 +34,7 @@ target_link_libraries(${PROJECT_NAME}_ros PUBLIC sks_build_flags ${PROJECT_NAME}
 if(sks_simulation)
   target_link_libraries(${PROJECT_NAME}_ros PUBLIC ${PROJECT_NAME}_simulation)
 endif()
+sks_precompile(${PROJECT_NAME}_ros <ros/node_handle.h> <sensor_msgs/PointCloud2.h>)
 set(sks_ros_libraries ${PROJECT_NAME}_ros)
 
 if(sks_camera)

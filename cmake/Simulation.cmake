@@ -34,8 +34,9 @@ else()
     ${ASSIMP_INCLUDE_DIR} ${EMBREE_INCLUDE_DIR} ${BULLET_INCLUDE_DIRS})
   target_link_libraries(${PROJECT_NAME}_simulation
     PUBLIC ${PROJECT_NAME}_core
-    PRIVATE $<BUILD_INTERFACE:sks_build_flags> ${ASSIMP_LIBRARY} ${EMBREE_LIBRARY} ${BULLET_LIBRARIES}
+    PRIVATE $<BUILD_INTERFACE:sks_build_flags> $<BUILD_INTERFACE:sks_fast_loops> ${ASSIMP_LIBRARY} ${EMBREE_LIBRARY} ${BULLET_LIBRARIES}
       OpenMP::OpenMP_CXX opencv_core opencv_imgcodecs)
+  sks_precompile(${PROJECT_NAME}_simulation)
   set_target_properties(${PROJECT_NAME}_simulation PROPERTIES
     EXPORT_NAME simulation
     VERSION ${PROJECT_VERSION}

@@ -5,6 +5,7 @@
 #include <optional>
 #include <tuple>
 
+#include "core/matching/object_matching.hpp"
 #include "core/pipeline/scene_description.hpp"
 #include "core/pipeline/stopwatch.hpp"
 #include "core/verification/refinement.hpp"
