@@ -44,7 +44,7 @@ TEST(KeypointPairs, CountReciprocalCorrespondencesAndInliers) {
   EXPECT_EQ(pair.scene_keypoints, 5u);
   EXPECT_EQ(pair.correspondences, 4u);
   EXPECT_EQ(pair.inliers, 3u);
-  EXPECT_DOUBLE_EQ(pair.correctShare(), 0.6);
+  EXPECT_DOUBLE_EQ(pair.correctFraction(), 0.6);
   ASSERT_TRUE(pair.T_scene_object);
   EXPECT_LT((pair.T_scene_object->matrix() - T.cast<double>().matrix()).norm(), 1e-5);
 }
@@ -108,7 +108,7 @@ TEST_F(KeypointStudyTest, ComparesGridSelectionAndIss) {
   const StudiedPair& pair = study.kinds[0].pairs[0];
   ASSERT_TRUE(pair.t_diff);
   EXPECT_LT(*pair.t_diff, 0.1);
-  EXPECT_GT(pair.pair.correctShare(), 0.3);
+  EXPECT_GT(pair.pair.correctFraction(), 0.3);
   EXPECT_DOUBLE_EQ(study.relativeTime(study.kinds[2]), 1);
 }
 

@@ -22,7 +22,7 @@ struct Cloud {
   std::uint32_t height = 1;             ///< rows; 1 if not organised
   std::vector<Eigen::Vector3f> points;  ///< width * height positions [m], sensor frame; NaN where nothing was measured
   std::vector<Rgb> colors;              ///< empty (no colour), or one for each point
-  Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();  ///< place of the camera in the frame of the points [m]
+  Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();  ///< position of the camera in the frame of the points [m]
 
   /// Of the points that are left of an organised cloud (sanitize()): where each was in the image, row * columns +
   /// column, ascending. Else empty.

@@ -30,9 +30,9 @@ KeypointStudy emptyStudy(const DataSet& data_set, const Settings& settings) {
   grid.selection = SelectionRule::rank;
   grid.discard = 0;
   iss.detector = KeypointDetector::iss;
-  const std::string share = sks.selection == SelectionRule::rank ? std::to_string(std::lround(100 * sks.discard))
-                                                                 : getSetting(settings, "keypoints.selection");
-  study.kinds = {{"grid", grid, {}, {}}, {"sks-" + share, sks, {}, {}}, {"iss", iss, {}, {}}};
+  const std::string percentage = sks.selection == SelectionRule::rank ? std::to_string(std::lround(100 * sks.discard))
+                                                                      : getSetting(settings, "keypoints.selection");
+  study.kinds = {{"grid", grid, {}, {}}, {"sks-" + percentage, sks, {}, {}}, {"iss", iss, {}, {}}};
   return study;
 }
 

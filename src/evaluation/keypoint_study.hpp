@@ -32,7 +32,7 @@ struct KeypointPair {
   std::optional<Eigen::Isometry3d> T_scene_object;  ///< T_h of RANSAC; absent where it found none
 
   /// C_rk (eq. 5): RANSAC inliers over keypoints of the object.
-  double correctShare() const { return object_keypoints == 0 ? 0 : double(inliers) / double(object_keypoints); }
+  double correctFraction() const { return object_keypoints == 0 ? 0 : double(inliers) / double(object_keypoints); }
 };
 
 /// Reciprocal correspondences under chi squared, then RANSAC. Same input, same output.
@@ -49,7 +49,7 @@ struct StudiedPair {
 
 /// What one kind of keypoints reached over a data set.
 struct StudiedKeypoints {
-  std::string name;  ///< grid, sks-50 (by the share that is dropped), iss
+  std::string name;  ///< grid, sks-50 (by the percentage that is dropped), iss
   KeypointSettings settings;
   std::vector<StudiedPair> pairs;   ///< the same, in the same order, for each kind
   std::vector<double> scene_times;  ///< keypoints of each scene [s], normals not counted; median of some runs

@@ -50,8 +50,8 @@ std::optional<CurvePoint> bestPoint(const std::vector<CurvePoint>& curve);
 /// The counts at the thresholds 0, 0.05, ... 1.
 std::vector<CurvePoint> thresholdSweep(const std::vector<RankedDetection>& detections, std::size_t ground_truth);
 
-/// The value below which the share `p` of the values lies, by linear interpolation between the two that are nearest in
-/// rank (p (n - 1), counted from 0). Absent without values.
+/// The value below which the fraction `p` of the values lies, by linear interpolation between the two that are nearest
+/// in rank (p (n - 1), counted from 0). Absent without values.
 std::optional<double> percentile(std::vector<double> values, double p);
 
 }  // namespace sks

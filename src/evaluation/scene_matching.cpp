@@ -48,13 +48,13 @@ std::vector<Detection> ranked(const Scene& scene, const std::vector<Detection>& 
   return result;
 }
 
-/// The turn about the axis of symmetry that comes nearest to a rotation [rad] (the twist of its swing and twist).
+/// The rotation about the axis of symmetry that comes nearest to a rotation [rad] (the twist of its swing and twist).
 double nearestTurn(const Eigen::Matrix3d& rotation, const Symmetry& symmetry) {
   const Eigen::Quaterniond q(rotation);
-  const double turn = 2 * std::atan2(q.vec().dot(symmetry.axis), q.w());
-  if (symmetry.order == 0) return turn;
+  const double angle = 2 * std::atan2(q.vec().dot(symmetry.axis), q.w());
+  if (symmetry.order == 0) return angle;
   const double step = 2 * EIGEN_PI / symmetry.order;
-  return step * std::round(turn / step);
+  return step * std::round(angle / step);
 }
 
 }  // namespace

@@ -49,7 +49,8 @@ bool isIgnored(const Scene& scene, const std::string& object);
 
 /// Compares a found pose with the true one of the same model frame.
 /// @param position centre of the reference's box in the scene, as the true pose maps it [m]
-/// @param symmetry of the object: of all its turns that look the same the one that is nearest to the found pose is true
+/// @param symmetry of the object: of all its rotations that look the same the one that is nearest to the found pose is
+/// true
 PoseError poseError(const Eigen::Isometry3d& T_scene_found, const Eigen::Isometry3d& T_scene_true,
                     const Eigen::Vector3d& position, const std::optional<Symmetry>& symmetry = {});
 

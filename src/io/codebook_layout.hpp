@@ -38,7 +38,7 @@ struct CodebookHeader {
 };
 static_assert(sizeof(CodebookHeader) == 64, "the header must have no padding");
 
-/// Checks magic, checksums, version and the places of the sections, in the order that gives the best message.
+/// Checks magic, checksums, version and the offsets of the sections, in the order that gives the best message.
 /// @throws Error(bad_file) saying what is wrong and what helps, without the file's name
 CodebookHeader checkCodebookHeader(const std::uint8_t* file, std::size_t size);
 

@@ -32,7 +32,7 @@ struct GroundTruth {
   std::string reference;  ///< the training cloud that the pose maps, named like TrainingEntry::source; may be empty
   std::optional<Eigen::Isometry3d> T_scene_reference;  ///< 6-D pose of the reference's frame [m]
   std::optional<Symmetry> symmetry;                    ///< of the reference, where its training entry declares one
-  std::optional<double> visibility;                    ///< share of the surface that is not occluded, in [0, 1]
+  std::optional<double> visibility;                    ///< fraction of the surface that is not occluded, in [0, 1]
 };
 
 /// One scene with all the instances that are in it.

@@ -35,11 +35,11 @@ struct Descriptor {
 
 constexpr std::size_t block_size = 1 << 20;  // [bytes]
 
-/// As many bytes from the place as there are, up to `size`.
-std::size_t readSome(int file, std::uint8_t* to, std::size_t size, std::size_t place) {
+/// As many bytes from the offset as there are, up to `size`.
+std::size_t readSome(int file, std::uint8_t* to, std::size_t size, std::size_t offset) {
   std::size_t done = 0;
   while (done < size) {
-    const ssize_t count = ::pread(file, to + done, size - done, off_t(place + done));
+    const ssize_t count = ::pread(file, to + done, size - done, off_t(offset + done));
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) failBySystem();
     if (count == 0) break;

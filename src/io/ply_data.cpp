@@ -156,11 +156,11 @@ void readVertices(Values& values, const PlyElement& element, double scale, Cloud
 }
 
 void readCamera(Values& values, const PlyElement& element, double scale, Cloud& cloud) {
-  const auto place = indicesOf(element, {"view_px", "view_py", "view_pz"});
+  const auto origin = indicesOf(element, {"view_px", "view_py", "view_pz"});
   std::vector<double> row;
   readInstance(values, element, row);
-  if (!complete(place)) return;
-  for (int axis = 0; axis < 3; ++axis) cloud.sensor_origin[axis] = float(scale * row[place[std::size_t(axis)]]);
+  if (!complete(origin)) return;
+  for (int axis = 0; axis < 3; ++axis) cloud.sensor_origin[axis] = float(scale * row[origin[std::size_t(axis)]]);
 }
 
 }  // namespace

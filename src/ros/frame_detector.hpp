@@ -29,7 +29,7 @@ public:
   /// @param slot, transforms must outlive it
   FrameDetector(const DetectorSlot& slot, Transforms& transforms) : slot_(slot), transforms_(transforms) {}
 
-  /// The cloud in its own frame, with the place of the camera.
+  /// The cloud in its own frame, with the position of the camera.
   /// @throws sks::Error for an unusable cloud, or where a transform is missing
   sks::Cloud read(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings) const;
 

@@ -11,8 +11,8 @@ namespace {
 constexpr std::size_t most_latencies = 300;
 
 /// @param sorted not empty
-double percentile(const std::vector<double>& sorted, double share) {
-  const auto rank = std::size_t(std::ceil(share * double(sorted.size())));
+double percentile(const std::vector<double>& sorted, double fraction) {
+  const auto rank = std::size_t(std::ceil(fraction * double(sorted.size())));
   return sorted[std::max<std::size_t>(rank, 1) - 1];
 }
 

@@ -25,7 +25,7 @@ struct NodeAccess {
   std::function<DetectionArray(const sensor_msgs::PointCloud2ConstPtr& cloud)> detect;
   /// Starts or stops the processing of `~points`.
   std::function<void(bool enabled)> enable;
-  /// The cloud as the detector takes it: in its own frame, with the place of the camera (~sensor_frame).
+  /// The cloud as the detector takes it: in its own frame, with the position of the camera (~sensor_frame).
   /// @throws sks::Error for an unusable cloud, or where a transform is missing
   std::function<sks::Cloud(const sensor_msgs::PointCloud2& cloud)> read;
 };

@@ -76,12 +76,12 @@ Mesh makeBowl() {
   };
   std::vector<Eigen::Vector2f> profile{{0.0005f, 0}, {0.03f, 0}, {0.032f, 0.006f}};
   for (int i = 4; i <= 20; ++i) {
-    const float share = float(i) / 20;
-    profile.emplace_back(0.08f * std::sqrt(share), 0.065f * share);
+    const float fraction = float(i) / 20;
+    profile.emplace_back(0.08f * std::sqrt(fraction), 0.065f * fraction);
   }
   for (int i = 20; i >= 0; --i) {
-    const float share = float(i) / 20;
-    profile.emplace_back(std::max(0.0005f, 0.0765f * std::sqrt(share)), 0.006f + 0.059f * share);
+    const float fraction = float(i) / 20;
+    profile.emplace_back(std::max(0.0005f, 0.0765f * std::sqrt(fraction)), 0.006f + 0.059f * fraction);
   }
   return makeRevolution(subdivided<Eigen::Vector2f>(profile, step), segments, paint);
 }

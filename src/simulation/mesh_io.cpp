@@ -30,8 +30,8 @@ constexpr double largest_in_metres = 5;  // what is wider across must be given i
   throw Error(ErrorCode::bad_file, "cannot read mesh '" + path + "': " + reason);
 }
 
-std::uint8_t toByte(float share) {
-  return std::uint8_t(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
+std::uint8_t toByte(float fraction) {
+  return std::uint8_t(std::lround(255 * std::clamp(fraction, 0.0f, 1.0f)));
 }
 
 Rgb toRgb(const aiColor4D& color) {
@@ -141,7 +141,7 @@ void check(const std::string& path, const Mesh& mesh) {
 
 void applyScale(const std::string& path, double scale, LoadedMesh& loaded) {
   const double diagonal = loaded.mesh.box().diagonal().norm();
-  if (!(diagonal > 0)) fail(path, "all its vertices lie in one place");
+  if (!(diagonal > 0)) fail(path, "all its vertices lie at one position");
   if (scale <= 0) {
     scale = diagonal > largest_in_metres ? 0.001 : 1;
     if (scale < 1) {

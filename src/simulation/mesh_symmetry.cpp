@@ -16,11 +16,11 @@ namespace sks {
 namespace {
 
 constexpr std::size_t sample_count = 20000;
-constexpr double cell_share = 0.03;  // of the box's diagonal: edge of the cubes in which places count as the same
-constexpr double same_share = 0.97;  // of the samples must fall on the mesh
-constexpr int same_color = 60;       // greatest difference of any channel
+constexpr double cell_fraction = 0.03;  // of the box's diagonal: edge of the cubes in which positions count as the same
+constexpr double same_share = 0.97;     // of the samples must fall on the mesh
+constexpr int same_color = 60;          // greatest difference of any channel
 
-/// A place on the surface.
+/// A position on the surface.
 struct Sample {
   Eigen::Vector3f position;
   Rgb color;
@@ -47,7 +47,7 @@ std::vector<Sample> sampleSurface(const Mesh& mesh) {
   return samples;
 }
 
-/// Says whether the surface passes near a place, in a similar colour.
+/// Says whether the surface passes near a position, in a similar colour.
 class SurfaceCells {
 public:
   SurfaceCells(const std::vector<Sample>& samples, float edge) : edge_(edge) {
@@ -92,7 +92,7 @@ std::vector<Eigen::Vector3d> candidateAxes(const std::vector<Sample>& samples) {
 
 std::optional<Symmetry> estimateSymmetry(const Mesh& mesh) {
   const std::vector<Sample> samples = sampleSurface(mesh);
-  const float edge = float(cell_share) * mesh.box().diagonal().norm();
+  const float edge = float(cell_fraction) * mesh.box().diagonal().norm();
   const SurfaceCells cells(samples, edge);
   const auto falls = [&](const Eigen::Vector3d& axis, double angle) {
     const Eigen::Matrix3f turn = Eigen::AngleAxisd(angle, axis).toRotationMatrix().cast<float>();

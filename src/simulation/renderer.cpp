@@ -200,13 +200,13 @@ Rendering Renderer::render(const CameraModel& camera, const Eigen::Isometry3d& T
       PixelRandom random(noise.seed, frame, pixel);
       const auto [aside, down] = random.normal();
       Hit hit = seen;
-      Eigen::Vector3f place = ray;
+      Eigen::Vector3f direction = ray;
       if (noise.lateral) {
-        place = camera.ray(column + noise.lateral_sigma * aside, row + noise.lateral_sigma * down);
-        hit = impl_->cast(eye, R_world_camera * place);
+        direction = camera.ray(column + noise.lateral_sigma * aside, row + noise.lateral_sigma * down);
+        hit = impl_->cast(eye, R_world_camera * direction);
       }
       if (!hit.found) continue;
-      if (noise.shadow && impl_->blocked(projector, eye + hit.depth * (R_world_camera * place))) continue;
+      if (noise.shadow && impl_->blocked(projector, eye + hit.depth * (R_world_camera * direction))) continue;
       const float depth = float(measuredDepth(camera, hit, random));
       if (depth >= float(camera.min_range) && depth <= float(camera.max_range)) cloud.points[pixel] = depth * ray;
     }

@@ -38,7 +38,7 @@ public:
   /// Hides an instance, or shows it again.
   void setVisible(std::size_t instance, bool visible);
 
-  /// What a camera sees from a place. Same arguments, same bytes, for any number of threads.
+  /// What a camera sees from a position. Same arguments, same bytes, for any number of threads.
   /// @param frame number of the picture: with the seed it chooses the noise
   /// @throws Error(bad_usage) for an impossible camera
   Rendering render(const CameraModel& camera, const Eigen::Isometry3d& T_world_camera, std::uint64_t frame,

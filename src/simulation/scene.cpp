@@ -39,7 +39,7 @@ Rgb anyColor(PixelRandom& random, double low, double high) {
   return {r, g, channel()};
 }
 
-/// A turn out of all with equal chances (Shoemake 1992).
+/// A rotation out of all with equal chances (Shoemake 1992).
 Eigen::Quaterniond anyRotation(PixelRandom& random) {
   const double u = random.uniform(), v = 2 * EIGEN_PI * random.uniform(), w = 2 * EIGEN_PI * random.uniform();
   return {std::sqrt(u) * std::cos(w), std::sqrt(1 - u) * std::sin(v), std::sqrt(1 - u) * std::cos(v),
@@ -115,17 +115,17 @@ Eigen::Isometry3d placeCamera(const SceneOptions& options, PixelRandom& random) 
 /// Table, and perhaps a wall on the side that is far from the camera.
 void addRoom(Renderer& renderer, const Eigen::Isometry3d& T_table_camera, const SceneOptions& options,
              PixelRandom& random) {
-  const auto add = [&](const Eigen::Vector3f& size, const Rgb& color, const Eigen::Isometry3d& place) {
-    renderer.addInstance(renderer.addMesh(std::make_shared<const Mesh>(makeBox(size, plain(color)))), place);
+  const auto add = [&](const Eigen::Vector3f& size, const Rgb& color, const Eigen::Isometry3d& pose) {
+    renderer.addInstance(renderer.addMesh(std::make_shared<const Mesh>(makeBox(size, plain(color)))), pose);
   };
   add({float(2 * table_half), float(2 * table_half), float(table_thickness)}, anyColor(random, 90, 220),
       Eigen::Isometry3d(Eigen::Translation3d(0, 0, -0.5 * table_thickness)));
   const Rgb color = anyColor(random, 150, 240);
   if (random.uniform() >= options.wall_share) return;
   const double azimuth = std::atan2(T_table_camera.translation().y(), T_table_camera.translation().x());
-  Eigen::Isometry3d place(Eigen::AngleAxisd(azimuth, Eigen::Vector3d::UnitZ()));
-  place.translate(Eigen::Vector3d(-table_half, 0, 0.3));
-  add({0.05f, 4, 2}, color, place);
+  Eigen::Isometry3d pose(Eigen::AngleAxisd(azimuth, Eigen::Vector3d::UnitZ()));
+  pose.translate(Eigen::Vector3d(-table_half, 0, 0.3));
+  add({0.05f, 4, 2}, color, pose);
 }
 
 std::vector<std::size_t> pixelCounts(const Rendering& view, std::size_t things) {
@@ -136,7 +136,7 @@ std::vector<std::size_t> pixelCounts(const Rendering& view, std::size_t things) 
   return counts;
 }
 
-/// What share of each thing is not hidden by others.
+/// What fraction of each thing is not occluded by others.
 std::vector<double> visibilities(Renderer& renderer, const std::vector<Thing>& things, const SceneOptions& options,
                                  const Eigen::Isometry3d& T_table_camera, const Rendering& view, std::size_t all) {
   CameraModel camera = options.camera;

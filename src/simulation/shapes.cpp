@@ -11,12 +11,12 @@ namespace {
 
 using Quad = std::function<Eigen::Vector3f(int, int)>;
 
-/// Adds a sheet of rows * columns squares whose corners are at place(row, column).
-void addSheet(Mesh& mesh, int rows, int columns, const Paint& paint, const Quad& place) {
+/// Adds a sheet of rows * columns squares whose corners are at position(row, column).
+void addSheet(Mesh& mesh, int rows, int columns, const Paint& paint, const Quad& position) {
   const int first = int(mesh.vertices.size());
   for (int row = 0; row <= rows; ++row) {
     for (int column = 0; column <= columns; ++column) {
-      mesh.vertices.push_back(place(row, column));
+      mesh.vertices.push_back(position(row, column));
       mesh.colors.push_back(paint(mesh.vertices.back()));
     }
   }

@@ -10,7 +10,7 @@
 
 namespace sks {
 
-/// Colour of a place on a shape [m].
+/// Colour of a position on a shape [m].
 using Paint = std::function<Rgb(const Eigen::Vector3f&)>;
 
 /// The same colour everywhere.

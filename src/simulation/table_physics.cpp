@@ -18,7 +18,7 @@ constexpr double time_step = 1.0 / 240;   // [s]
 constexpr int fall_steps = 240;           // in which a dropped body comes to lie
 constexpr int settle_steps = 1200;        // at most, at the end
 constexpr double mass = 0.3;              // [kg]
-constexpr double still = 0.005 * units;   // speed below which things lie [units / s], turns [rad / s]
+constexpr double still = 0.005 * units;   // speed below which things lie [units / s], rotations [rad / s]
 
 btVector3 toBullet(const Eigen::Vector3d& v) {
   return {btScalar(units * v.x()), btScalar(units * v.y()), btScalar(units * v.z())};
@@ -80,11 +80,11 @@ struct TablePhysics::World {
     for (Thing& thing : things) world.removeRigidBody(thing.body.get());
   }
 
-  void add(btCollisionShape* shape, double weight, const btTransform& place, const Eigen::Vector3d& center) {
+  void add(btCollisionShape* shape, double weight, const btTransform& pose, const Eigen::Vector3d& center) {
     btVector3 inertia(0, 0, 0);
     if (weight > 0) shape->calculateLocalInertia(btScalar(weight), inertia);
     Thing thing;
-    thing.motion = std::make_unique<btDefaultMotionState>(place);
+    thing.motion = std::make_unique<btDefaultMotionState>(pose);
     btRigidBody::btRigidBodyConstructionInfo info(btScalar(weight), thing.motion.get(), shape, inertia);
     info.m_friction = btScalar(0.7);
     info.m_rollingFriction = btScalar(0.02);
@@ -125,9 +125,9 @@ TablePhysics::TablePhysics(double half_size) : world_(std::make_unique<World>())
   const double half_thickness = 0.05;
   w.table = std::make_unique<btBoxShape>(toBullet({half_size, half_size, half_thickness}));
   w.table->setMargin(btScalar(margin));
-  btTransform place = btTransform::getIdentity();
-  place.setOrigin(toBullet({0, 0, -half_thickness}));
-  w.add(w.table.get(), 0, place, Eigen::Vector3d::Zero());
+  btTransform pose = btTransform::getIdentity();
+  pose.setOrigin(toBullet({0, 0, -half_thickness}));
+  w.add(w.table.get(), 0, pose, Eigen::Vector3d::Zero());
 }
 
 TablePhysics::~TablePhysics() = default;
@@ -137,8 +137,8 @@ bool TablePhysics::drop(const RigidBody& body, double x, double y, const Eigen::
   const double height = w.top() + units * (double(body.radius_) + 0.02);
   const btQuaternion turn(btScalar(rotation.x()), btScalar(rotation.y()), btScalar(rotation.z()),
                           btScalar(rotation.w()));
-  const btTransform place(turn, btVector3(btScalar(units * x), btScalar(units * y), btScalar(height)));
-  w.add(&body.shape_->compound, mass, place, body.center_of_mass_.cast<double>());
+  const btTransform pose(turn, btVector3(btScalar(units * x), btScalar(units * y), btScalar(height)));
+  w.add(&body.shape_->compound, mass, pose, body.center_of_mass_.cast<double>());
   for (int i = 0; i < fall_steps; ++i) w.step();
   const btVector3& p = w.things.back().body->getWorldTransform().getOrigin();
   const bool stays = p.z() > 0 && std::hypot(double(p.x()), double(p.y())) < units * region;
@@ -151,9 +151,9 @@ std::vector<Eigen::Isometry3d> TablePhysics::settle() {
   for (int i = 0; i < settle_steps && !w.isStill(); ++i) w.step();
   std::vector<Eigen::Isometry3d> poses;
   for (std::size_t i = 1; i < w.things.size(); ++i) {  // the first is the table
-    const btTransform& place = w.things[i].body->getWorldTransform();
-    const btVector3& p = place.getOrigin();
-    const btQuaternion q = place.getRotation();
+    const btTransform& pose = w.things[i].body->getWorldTransform();
+    const btVector3& p = pose.getOrigin();
+    const btQuaternion q = pose.getRotation();
     Eigen::Isometry3d pose(Eigen::Translation3d(double(p.x()) / units, double(p.y()) / units, double(p.z()) / units));
     pose.rotate(Eigen::Quaterniond(double(q.w()), double(q.x()), double(q.y()), double(q.z())).normalized());
     poses.push_back(pose * Eigen::Translation3d(-w.things[i].center_of_mass));

@@ -37,7 +37,7 @@ public:
   TablePhysics(const TablePhysics&) = delete;
   TablePhysics& operator=(const TablePhysics&) = delete;
 
-  /// Lets a body fall from above all that is there, turned by `rotation`, over (x, y), and waits until it lies.
+  /// Lets a body fall from above all that is there, rotated by `rotation`, over (x, y), and waits until it lies.
   /// @return false if it did not stay within `region` [m] of the middle: it is gone then
   bool drop(const RigidBody& body, double x, double y, const Eigen::Quaterniond& rotation, double region);
 

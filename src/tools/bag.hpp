@@ -26,7 +26,7 @@ public:
   BagRecorder(const std::string& path, const CameraModel& camera, double rate);
   ~BagRecorder();  ///< removes what finish() did not complete
 
-  /// @param truth what stands there, in the camera's frame; the score is the visible share @throws Error(bad_file)
+  /// @param truth what stands there, in the camera's frame; the score is the visible fraction @throws Error(bad_file)
   void add(const Cloud& cloud, const Eigen::Isometry3d& T_table_camera, const std::vector<Detection>& truth);
 
   /// Gives the file its name. @throws Error(bad_file)

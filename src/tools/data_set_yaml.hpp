@@ -17,8 +17,8 @@ std::string yamlList(const std::vector<double>& values);
 /// A scene as an entry of a data set file in metres; its cloud and references as they are to stand there.
 std::string sceneYaml(const Scene& scene);
 
-/// A scene of which the truth is known as detections: a score is the share of the object that is seen, 0 where that is
-/// unknown. Objects of which less than 5 % is seen are ignored.
+/// A scene of which the truth is known as detections: a score is the fraction of the object that is seen, 0 where that
+/// is unknown. Objects of which less than 5 % is seen are ignored.
 Scene groundTruthScene(const std::string& name, const std::vector<Detection>& truth);
 
 }  // namespace sks::tools

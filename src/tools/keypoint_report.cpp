@@ -22,9 +22,9 @@ json orNull(const std::optional<double>& value) {
   return value ? json(*value) : json();
 }
 
-std::vector<double> shares(const StudiedKeypoints& kind) {
+std::vector<double> fractions(const StudiedKeypoints& kind) {
   std::vector<double> values;
-  for (const StudiedPair& pair : kind.pairs) values.push_back(pair.pair.correctShare());
+  for (const StudiedPair& pair : kind.pairs) values.push_back(pair.pair.correctFraction());
   std::sort(values.begin(), values.end(), std::greater<>());
   return values;
 }
@@ -53,8 +53,8 @@ double meanSceneKeypoints(const StudiedKeypoints& kind) {
   return mean(kind, [](const KeypointPair& pair) { return double(pair.scene_keypoints); });
 }
 
-double meanShare(const StudiedKeypoints& kind) {
-  return mean(kind, [](const KeypointPair& pair) { return pair.correctShare(); });
+double meanFraction(const StudiedKeypoints& kind) {
+  return mean(kind, [](const KeypointPair& pair) { return pair.correctFraction(); });
 }
 
 json pairJson(const StudiedPair& pair) {
@@ -64,13 +64,13 @@ json pairJson(const StudiedPair& pair) {
           {"scene_keypoints", pair.pair.scene_keypoints},
           {"correspondences", pair.pair.correspondences},
           {"inliers", pair.pair.inliers},
-          {"c_rk", pair.pair.correctShare()},
+          {"c_rk", pair.pair.correctFraction()},
           {"t_diff", orNull(pair.t_diff)},
           {"pose", pair.pair.T_scene_object ? poseJson(*pair.pair.T_scene_object) : json()}};
 }
 
 json kindJson(const KeypointStudy& study, const StudiedKeypoints& kind) {
-  json result{{"c_rk", {{"mean", meanShare(kind)}, {"ranked", shares(kind)}}},
+  json result{{"c_rk", {{"mean", meanFraction(kind)}, {"ranked", fractions(kind)}}},
               {"t_diff", {{"median", orNull(percentile(differences(kind), 0.5))}, {"ranked", differences(kind)}}},
               {"object_keypoints", {{"mean", meanObjectKeypoints(kind)}}},
               {"scene_keypoints", {{"mean", meanSceneKeypoints(kind)}}},
@@ -108,7 +108,7 @@ std::string keypointTable(const KeypointStudy& study) {
     const std::vector<double> t_diff = differences(kind);
     const auto good = std::count_if(t_diff.begin(), t_diff.end(), [](double value) { return value < 0.1; });
     table.add({kind.name, fixed(meanObjectKeypoints(kind), 0), fixed(meanSceneKeypoints(kind), 0),
-               fixed(meanShare(kind), 3), fixed(percentile(t_diff, 0.5).value_or(nothing), 3), std::to_string(good),
+               fixed(meanFraction(kind), 3), fixed(percentile(t_diff, 0.5).value_or(nothing), 3), std::to_string(good),
                std::to_string(t_diff.size()), fixed(1000 * kind.meanTime(), 2), fixed(study.relativeTime(kind), 4)});
   }
   return study.data_set + ": " + std::to_string(study.kinds.front().pairs.size()) + " pairs of object and scene in " +
@@ -118,7 +118,7 @@ std::string keypointTable(const KeypointStudy& study) {
 std::string keypointCsv(const KeypointStudy& study) {
   std::string text = "keypoints,rank,c_rk,t_diff\n";
   for (const StudiedKeypoints& kind : study.kinds) {
-    const std::vector<double> c_rk = shares(kind), t_diff = differences(kind);
+    const std::vector<double> c_rk = fractions(kind), t_diff = differences(kind);
     for (std::size_t i = 0; i < c_rk.size(); ++i) {
       text += kind.name + "," + std::to_string(i + 1) + "," + number(c_rk[i]) + "," +
               (i < t_diff.size() ? number(t_diff[i]) : "") + "\n";

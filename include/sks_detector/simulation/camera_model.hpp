@@ -14,7 +14,7 @@ namespace sks {
 /// of Kinect Depth Data for Indoor Mapping Applications", Sensors 12(2), 2012.
 struct CameraNoise {
   bool axial = true;              ///< depth errors of axialSigma()
-  bool lateral = true;            ///< depth is that of a place lateral_sigma away in the image
+  bool lateral = true;            ///< depth is that of a position lateral_sigma away in the image
   bool disparity = true;          ///< depth in steps of disparity_step
   bool shadow = true;             ///< no depth where the projector's light does not come
   bool grazing = true;            ///< no depth on surfaces that are seen at a slant
@@ -39,7 +39,7 @@ struct CameraModel {
   bool shading = false;                   ///< colours darken with the angle between ray and normal
   CameraNoise noise;
 
-  /// Direction of the ray through a place in the image, with z = 1.
+  /// Direction of the ray through a position in the image, with z = 1.
   Eigen::Vector3f ray(double column, double row) const {
     return {float((column - cx) / fx), float((row - cy) / fy), 1.0f};
   }

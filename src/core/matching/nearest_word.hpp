@@ -36,7 +36,7 @@ public:
     HellingerAxes::Projection projection;
     std::vector<Search> searches;
     std::vector<float> bounds;                              // of a tile of words, of several queries
-    std::vector<std::uint32_t> selected;                    // places in `bounds`
+    std::vector<std::uint32_t> selected;                    // positions in `bounds`
     std::vector<float> merged;                              // bins of one query
     std::vector<float> sorted;                              // bounds, in part
     std::vector<float> centers;                             // distances of several queries to them

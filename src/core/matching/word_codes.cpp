@@ -7,7 +7,7 @@
 namespace sks {
 namespace {
 
-constexpr std::size_t leftover = code_size - 1;  // place of what the axes before it leave over
+constexpr std::size_t leftover = code_size - 1;  // position of what the axes before it leave over
 constexpr float quantization = 1e-3f;            // above the relative error that this leaves in an inner product
 constexpr float rounding = 4e-6f;                // above that of sums in single precision
 

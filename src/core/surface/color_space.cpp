@@ -28,9 +28,9 @@ public:
 
   /// Interpolated linearly: wrong by 1e-5 at most.
   float operator()(float t) const {
-    const float place = std::min(t, 1.0f) * steps;
-    const int i = int(place);
-    return table_[i] + (place - float(i)) * (table_[i + 1] - table_[i]);
+    const float position = std::min(t, 1.0f) * steps;
+    const int i = int(position);
+    return table_[i] + (position - float(i)) * (table_[i + 1] - table_[i]);
   }
 
 private:

@@ -6,7 +6,7 @@
 namespace sks {
 
 /// Turns the normals of a closed model outwards: towards where each point can be seen from, over directions spread
-/// evenly around the model. Points that are hidden from everywhere follow their neighbours.
+/// evenly around the model. Points that are occluded from everywhere follow their neighbours.
 void orientOutward(Surface& surface, int threads);
 
 }  // namespace sks

@@ -20,7 +20,7 @@ struct NormalArrays {
 void fitPlanesAtPoints(const PointGrid& grid, std::size_t begin, std::size_t end, float radius, int min_neighbors,
                        NormalArrays normals);
 
-/// The same at any place, with the runs of its neighbours from PointGrid::findRuns(). SIMD over neighbours.
+/// The same at any position, with the runs of its neighbours from PointGrid::findRuns(). SIMD over neighbours.
 Eigen::Vector3f fitPlane(const PointGrid& grid, const Eigen::Vector3f& center, float radius, int min_neighbors,
                          const std::vector<PointGrid::Run>& runs);
 

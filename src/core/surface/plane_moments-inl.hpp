@@ -83,10 +83,10 @@ template <class D>
 HWY_INLINE SymmetricMatrices<hn::Vec<D>> covariances(D d, const Moments& moments, std::size_t first) {
   const hn::Rebind<float, D> df;
   const auto load = [&](int k) { return hn::PromoteTo(d, hn::LoadU(df, &moments.sums[k][first])); };
-  const auto share = hn::Div(hn::Set(d, 1.0), load(Moments::count));
-  const auto mx = hn::Mul(load(Moments::x), share), my = hn::Mul(load(Moments::y), share),
-             mz = hn::Mul(load(Moments::z), share);
-  const auto covariance = [&](int k, auto a, auto b) { return hn::MulSub(load(k), share, hn::Mul(a, b)); };
+  const auto weight = hn::Div(hn::Set(d, 1.0), load(Moments::count));
+  const auto mx = hn::Mul(load(Moments::x), weight), my = hn::Mul(load(Moments::y), weight),
+             mz = hn::Mul(load(Moments::z), weight);
+  const auto covariance = [&](int k, auto a, auto b) { return hn::MulSub(load(k), weight, hn::Mul(a, b)); };
   SymmetricMatrices<hn::Vec<D>> m;
   m.xx = covariance(Moments::xx, mx, mx);
   m.xy = covariance(Moments::xy, mx, my);

@@ -46,35 +46,35 @@ struct Entry {
   std::uint32_t row;
 };
 
-/// Entries by key, those of one key in their order, whatever the number of threads: each counts a share of them and
-/// puts it in its places. @param begin becomes the place of each key's first entry, and one past the last of all
+/// Entries by key, those of one key in their order, whatever the number of threads: each counts its part of them and
+/// puts it in its slots. @param begin becomes the slot of each key's first entry, and one past the last of all
 template <typename KeyOf>
 std::vector<Entry> sortedByKey(const std::vector<Entry>& entries, std::size_t keys, KeyOf&& key_of, int threads,
                                std::vector<std::uint32_t>& begin) {
-  const std::size_t n = entries.size(), shares = std::clamp<std::size_t>(n / keys, 1, std::size_t(threads));
-  std::vector<std::uint32_t> next(shares * keys, 0);
-  const auto forEachOfShare = [&](std::size_t share, auto&& f) {
-    for (std::size_t i = n * share / shares; i < n * (share + 1) / shares; ++i) {
-      f(entries[i], next[share * keys + key_of(entries[i])]);
+  const std::size_t n = entries.size(), parts = std::clamp<std::size_t>(n / keys, 1, std::size_t(threads));
+  std::vector<std::uint32_t> next(parts * keys, 0);
+  const auto forEachOfPart = [&](std::size_t part, auto&& f) {
+    for (std::size_t i = n * part / parts; i < n * (part + 1) / parts; ++i) {
+      f(entries[i], next[part * keys + key_of(entries[i])]);
     }
   };
 #pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::size_t share = 0; share < shares; ++share) {
-    forEachOfShare(share, [](const Entry&, std::uint32_t& count) { ++count; });
+  for (std::size_t part = 0; part < parts; ++part) {
+    forEachOfPart(part, [](const Entry&, std::uint32_t& count) { ++count; });
   }
   begin.resize(keys + 1);
-  std::uint32_t place = 0;
+  std::uint32_t slot = 0;
   for (std::size_t key = 0; key < keys; ++key) {
-    begin[key] = place;
-    for (std::size_t share = 0; share < shares; ++share) {
-      place += std::exchange(next[share * keys + key], place);
+    begin[key] = slot;
+    for (std::size_t part = 0; part < parts; ++part) {
+      slot += std::exchange(next[part * keys + key], slot);
     }
   }
-  begin[keys] = place;
+  begin[keys] = slot;
   std::vector<Entry> sorted(n);
 #pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::size_t share = 0; share < shares; ++share) {
-    forEachOfShare(share, [&](const Entry& entry, std::uint32_t& to) { sorted[to++] = entry; });
+  for (std::size_t part = 0; part < parts; ++part) {
+    forEachOfPart(part, [&](const Entry& entry, std::uint32_t& to) { sorted[to++] = entry; });
   }
   return sorted;
 }

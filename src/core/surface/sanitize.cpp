@@ -32,7 +32,7 @@ public:
     return mixed * 0x9E3779B97F4A7C15ull;
   }
 
-  /// Has the place of a hash read from memory, for insert() soon after.
+  /// Has the slot of a hash read from memory, for insert() soon after.
   void prefetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash >> (64 - bits_)]); }
 
   /// False if an equal position is in the set already.
@@ -121,8 +121,8 @@ std::vector<std::uint32_t> usablePoints(const Cloud& cloud, const SanitizeSettin
   return usable;
 }
 
-/// Those of the points that are not at exactly the place of an earlier one. Equal points have equal hashes: each share
-/// of all hashes is looked at by itself.
+/// Those of the points that are not at exactly the position of an earlier one. Equal points have equal hashes: each
+/// share of all hashes is looked at by itself.
 std::vector<std::uint32_t> distinctPoints(const Cloud& cloud, const std::vector<std::uint32_t>& indices, int threads) {
   const std::size_t n = indices.size(), shares = std::size_t(threads);
   std::vector<std::uint64_t> hashes(n);

@@ -13,7 +13,7 @@ struct SanitizeReport {
   std::size_t input = 0;         ///< points given
   std::size_t invalid = 0;       ///< NaN or infinite
   std::size_t out_of_range = 0;  ///< nearer or farther from the sensor than allowed, or outside the crop box
-  std::size_t duplicates = 0;    ///< at exactly the place of an earlier point
+  std::size_t duplicates = 0;    ///< at exactly the position of an earlier point
   std::size_t kept = 0;
 };
 

@@ -8,7 +8,7 @@
 namespace sks_detector {
 namespace {
 
-/// For each of `count` places along an edge the nearest of `target_count`, in proportion.
+/// For each of `count` positions along an edge the nearest of `target_count`, in proportion.
 std::vector<int> proportional(int count, int target_count) {
   std::vector<int> result(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {

@@ -18,7 +18,7 @@ struct OrganizedPoint {
 static_assert(sizeof(OrganizedPoint) == 16 && std::is_trivially_copyable_v<OrganizedPoint>);
 
 /// Writes one point for each pixel of the depth image, in the camera's optical frame. A colour image of another size is
-/// taken to show the same view: each point gets the pixel at its place in proportion.
+/// taken to show the same view: each point gets the pixel at its position in proportion.
 void organizedCloud(const CameraFrame& frame, OrganizedPoint* points);
 
 }  // namespace sks_detector

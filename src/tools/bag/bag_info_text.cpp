@@ -50,10 +50,9 @@ std::string frameLines(const BagReport& report) {
   for (const std::string& frame : frames) {
     std::string line = withoutSlash(frame);
     std::set<std::string> seen;
-    for (auto place = tree.find(line);
-         place != tree.end() && !place->second.empty() && seen.insert(place->first).second;
-         place = tree.find(place->second)) {
-      line += " < " + place->second;
+    for (auto link = tree.find(line); link != tree.end() && !link->second.empty() && seen.insert(link->first).second;
+         link = tree.find(link->second)) {
+      line += " < " + link->second;
     }
     text += "  " + line + "\n";
   }

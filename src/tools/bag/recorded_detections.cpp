@@ -53,12 +53,12 @@ RecordedDetections readDetections(const BagFile& bag, const std::string& topic) 
   RecordedDetections recorded;
   recorded.topic = topic;
   bag.forEach<sks_detector::DetectionArray>(topic, [&](const auto& message, const ros::Time&) {
-    const auto [place, fresh] = recorded.arrays.try_emplace(message.header.stamp);
+    const auto [entry, fresh] = recorded.arrays.try_emplace(message.header.stamp);
     if (!fresh) {
       ++recorded.repeated;
       return;
     }
-    RecordedArray& array = place->second;
+    RecordedArray& array = entry->second;
     array.frame = withoutSlash(message.header.frame_id);
     array.codebook = message.codebook;
     array.processing_time = message.processing_time;

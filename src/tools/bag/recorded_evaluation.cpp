@@ -113,11 +113,11 @@ RecordedEvaluation evaluateRecorded(const RecordedTruth& truth, const RecordedDe
   evaluation.max_distance = truth.max_distance;
   std::size_t answered = 0;
   for (const auto& [stamp, scene] : truth.scenes) {
-    const auto place = found.arrays.find(stamp);
-    const bool has_answer = place != found.arrays.end();
+    const auto entry = found.arrays.find(stamp);
+    const bool has_answer = entry != found.arrays.end();
     ++(has_answer ? answered : result.unanswered);
     if (!has_answer && !count_unanswered) continue;
-    const RecordedArray array = has_answer ? place->second : RecordedArray();
+    const RecordedArray array = has_answer ? entry->second : RecordedArray();
     SceneResult scored;
     scored.scene = scene;
     nameReferencesLikeViews(scored.scene, array.detections);
