@@ -15,6 +15,8 @@ sks::Settings withQuickStages(sks::Settings settings) {
   settings.refinement = quick.refinement;
   settings.verification = quick.verification;
   settings.voting = quick.voting;
+  settings.matching = quick.matching;
+  settings.detection.hypotheses = quick.detection.hypotheses;
   return settings;
 }
 

@@ -75,13 +75,16 @@ void trainingSettings(const std::string& text) {
 }
 
 void parameters(const std::string& text) {
-  sks_detector::Configuration configuration;
+  sks_detector::Configuration configuration, again;
   const std::size_t equals = std::min(text.find('='), text.size());
   const std::string key = text.substr(0, equals), value = text.substr(std::min(equals + 1, text.size()));
-  sks_detector::setParameter(configuration, key, value);
-  const std::string kept = sks_detector::getParameter(configuration, key);
-  sks_detector::setParameter(configuration, key, kept);
-  require(sks_detector::getParameter(configuration, key) == kept, "a parameter is taken back unchanged");
+  sks::SettingsOverlay(bound(configuration)).set(key, value);
+  sks::SettingsOverlay back(bound(again));
+  for (const sks::SettingInfo& info : sks_detector::parameterInfos()) {
+    const std::string kept = sks_detector::getParameter(configuration, info.key);
+    back.set(info.key, kept);
+    require(sks_detector::getParameter(again, info.key) == kept, "a parameter is taken back unchanged");
+  }
 }
 
 void trainFrom(const std::string& data_set, const std::string& folder) {

@@ -29,7 +29,7 @@ Settings shapeSettings() {
   settings.keypoints.discard = 0;
   settings.descriptor.radius = 0.08;
   settings.voting.min_votes = 1;
-  settings.verification.ambiguity = 1;
+  settings.matching.ambiguity = 1;
   return settings;
 }
 
@@ -107,7 +107,7 @@ TEST(Classifier, OtherObjectsNearlyAsNearVoteWithLessWeight) {
   const auto codebook = shapes();
   const auto classify = [&](double ambiguity) {
     Settings settings = shapeSettings();
-    settings.verification.ambiguity = ambiguity;
+    settings.matching.ambiguity = ambiguity;
     return Classifier(codebook, settings, ClassBalance::none).classify(turned(test::cupShape()), ViewKind::model);
   };
   const Classification nearest = classify(1), some = classify(1.5), all = classify(10);
@@ -125,7 +125,7 @@ TEST(Classifier, OtherObjectsNearlyAsNearVoteWithLessWeight) {
 TEST(Classifier, DoesNotDependOnThreads) {
   const auto codebook = shapes();
   Settings settings = shapeSettings();
-  settings.verification.ambiguity = 1.3;
+  settings.matching.ambiguity = 1.3;
   std::vector<std::vector<double>> scores;
   for (const int threads : {1, 3}) {
     settings.threads = threads;

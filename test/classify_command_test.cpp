@@ -85,7 +85,7 @@ TEST_F(ClassifyCommand, PublishedMethodDropsHalfOfTheKeypoints) {
   ASSERT_EQ(run.status, 0) << run.errors;
   const json result = json::parse(run.output), counts = result["per_test"][0]["counts"];
   EXPECT_EQ(result["settings"]["keypoints.discard"], 0.5);
-  EXPECT_EQ(result["settings"]["verification.ambiguity"], 1.0);  // only the nearest codeword votes
+  EXPECT_EQ(result["settings"]["matching.ambiguity"], 1.0);  // only the nearest codeword votes
   const int all = counts["grid_keypoints"];
   EXPECT_EQ(counts["keypoints"], all - all / 2);
 }

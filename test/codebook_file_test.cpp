@@ -16,12 +16,14 @@
 #include "io/codebook_layout.hpp"
 #include "io/crc32c.hpp"
 #include "io/file.hpp"
+#include "old_codebook.hpp"
 #include "temporary_folder.hpp"
 
 namespace {
 
 using sks::ErrorCode;
 using sks::test::errorOf;
+using sks::test::sealed;
 using sks::test::writeFile;
 
 sks::Codebook makeCodebook(sks::DescriptorType type = sks::DescriptorType::shot) {
@@ -84,15 +86,6 @@ protected:
   const sks::test::TemporaryFolder folder_;
   const std::string path_ = folder_.path("toys.sks");
 };
-
-/// Puts right checksums over a changed file, so that what lies behind them is tested.
-std::string sealed(std::string content) {
-  sks::CodebookHeader header;
-  std::memcpy(&header, content.data(), sizeof(header));
-  header.payload_checksum = sks::crc32c(content.data() + sizeof(header), content.size() - sizeof(header));
-  header.header_checksum = header.ownChecksum();
-  return content.replace(0, sizeof(header), reinterpret_cast<const char*>(&header), sizeof(header));
-}
 
 std::string withHeader(const std::string& content, void (*change)(sks::CodebookHeader&)) {
   sks::CodebookHeader header;
@@ -294,6 +287,27 @@ TEST_F(CodebookFile, UnknownSettingsAreNamed) {
   EXPECT_NE(message.find("unknown setting 'keypoints.discord': did you mean 'keypoints.discard'?; train it again"),
             std::string::npos)
       << message;
+}
+
+TEST_F(CodebookFile, OldNamesOfSettingsAreUnderstood) {
+  sks::Codebook codebook = makeCodebook();
+  codebook.settings.matching.ambiguity = 1.5;
+  codebook.settings.keypoints.skip_planes = false;
+  codebook.settings.verification.candidates = 30;
+  sks::writeCodebook(path_, codebook);
+  const sks::Settings stored = sks::readCodebook(path_)->settings;
+  const std::string whole = sks::readTextFile(path_);
+
+  writeFile(path_, sks::test::withOldSettings(whole, stored, 30));
+  EXPECT_EQ(sks::readTextFile(path_).find("matching:"), std::string::npos);
+  EXPECT_EQ(sks::settingsToYaml(sks::readCodebook(path_)->settings), sks::settingsToYaml(stored));
+
+  writeFile(path_, sks::test::withOldSettings(whole, stored, 0));
+  const sks::Settings published = sks::readCodebook(path_)->settings;
+  EXPECT_EQ(published.detection.hypotheses, sks::Hypotheses::hough);
+  EXPECT_EQ(published.verification.candidates, sks::Settings().verification.candidates);
+  EXPECT_EQ(published.matching.ambiguity, 1.5);
+  EXPECT_FALSE(published.keypoints.skip_planes);
 }
 
 TEST_F(CodebookFile, UnknownDescriptorsAreNamed) {

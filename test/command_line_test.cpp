@@ -15,10 +15,12 @@
 #include <nlohmann/json.hpp>
 
 #include <sks_detector/cloud_io.hpp>
+#include <sks_detector/codebook_file.hpp>
 #include <sks_detector/settings_file.hpp>
 
 #include "bumps.hpp"
 #include "io/file.hpp"
+#include "old_codebook.hpp"
 #include "run_sks.hpp"
 #include "temporary_folder.hpp"
 
@@ -324,6 +326,42 @@ TEST_F(CommandLine, InterruptedTrainingLeavesNothing) {
   ::close(terminal);
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status << ": " << shown;
   EXPECT_EQ(folder_.fileCount(), files);
+}
+
+TEST_F(CommandLine, OldNamesOfSettingsAreWarnedAbout) {
+  const CommandRun set = runSks({"settings", "--json", "-", "--set", "verification.candidates=0"});
+  EXPECT_EQ(set.status, 0);
+  EXPECT_EQ(set.errors,
+            "sks: warning: --set verification.candidates=0: 'verification.candidates = 0' is now called "
+            "'detection.hypotheses = hough'; the old name still works\n");
+  for (const json& entry : json::parse(set.output)) {
+    if (entry["key"] == "detection.hypotheses") EXPECT_EQ(entry["value"], "hough");
+    if (entry["key"] == "verification.candidates") EXPECT_EQ(entry["value"], 80);
+  }
+  test::writeFile(path("c.yaml"), "verification:\n  ambiguity: 1.5\n");
+  const CommandRun config =
+      runSks({"settings", "--yaml", "--config", path("c.yaml"), "--set", "matching.ambiguity=1.4"});
+  EXPECT_EQ(config.errors, "sks: warning: " + path("c.yaml") +
+                               ":2: 'verification.ambiguity' is now called 'matching.ambiguity'; the old name still "
+                               "works\n");
+  EXPECT_THAT(config.output, HasSubstr("\n  ambiguity: 1.4\n"));
+}
+
+TEST_F(CommandLine, CodebooksWithOldNamesOfSettingsAreUsed) {
+  ASSERT_EQ(train().status, 0);
+  const CommandRun found = detect("bumps.pcd", {"--json", "-"});
+  ASSERT_EQ(found.status, 0) << found.errors;
+  test::writeFile(path("toys.sks"),
+                  test::withOldSettings(readTextFile(path("toys.sks")), readCodebook(path("toys.sks"))->settings, 80));
+  EXPECT_EQ(runSks({"verify", path("toys.sks")}).status, 0);
+  const CommandRun info = runSks({"info", path("toys.sks"), "--json", "-"});
+  EXPECT_EQ(info.errors, "");
+  EXPECT_EQ(json::parse(info.output)["settings"]["matching.ambiguity"], 1.3);
+  const CommandRun again = detect("bumps.pcd", {"--json", "-"});
+  EXPECT_EQ(again.errors, found.errors);
+  const auto detectionsOf = [](const CommandRun& run) { return json::parse(run.output)["clouds"][0]["detections"]; };
+  EXPECT_EQ(detectionsOf(again), detectionsOf(found));
+  EXPECT_FALSE(detectionsOf(found).empty());
 }
 
 TEST_F(CommandLine, SettingsArePrintedInEveryForm) {

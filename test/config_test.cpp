@@ -10,7 +10,9 @@ namespace {
 
 sks::Settings preset(const std::string& name) {
   sks::Settings settings;
-  sks::loadSettings(std::string(SKS_SOURCE_DIR) + "/config/" + name, settings);
+  std::vector<std::string> warnings;
+  sks::loadSettings(std::string(SKS_SOURCE_DIR) + "/config/" + name, settings, &warnings);
+  for (const std::string& warning : warnings) ADD_FAILURE() << warning;
   return settings;
 }
 
@@ -37,4 +39,5 @@ TEST(Config, PaperPresetStatesWhatThePaperStates) {
   EXPECT_EQ(paper.keypoints.discard, 0.5);
   EXPECT_EQ(paper.descriptor.radius, 0.05);
   EXPECT_EQ(paper.surface.resolution, 0);
+  EXPECT_EQ(paper.detection.hypotheses, sks::Hypotheses::hough);
 }

@@ -198,11 +198,11 @@ TEST(Detector, IsDeterministic) {
 TEST(Detector, CountsAndOrdersWhatItDoes) {
   sks::Settings settings;
   settings.keypoints.discard = 0.25;
-  settings.verification.skip_planes = false;
+  settings.keypoints.skip_planes = false;
   const sks::Cloud scene = clutteredScene();
   EXPECT_GT(sks::Detector(twoObjects(), settings).detect(scene).counts.votes,
             sks::Detector(twoObjects(), settings).detect(scene).counts.descriptors);  // of other objects too
-  settings.verification.ambiguity = 1;
+  settings.matching.ambiguity = 1;
   const auto result = sks::Detector(twoObjects(), settings).detect(scene);
   const sks::StageCounts& counts = result.counts;
   EXPECT_EQ(counts.input_points, scene.size());
@@ -235,7 +235,7 @@ TEST(Detector, FindsTheSameWithoutTheKeypointsOfTheWall) {
       sks::train({sampleOf("thing", sks::test::view({placed.front()}))}, sks::Settings(), "synthetic"));
   sks::Settings settings;
   const auto without = sks::Detector(codebook, settings).detect(scene);
-  settings.verification.skip_planes = false;
+  settings.keypoints.skip_planes = false;
   const auto with = sks::Detector(codebook, settings).detect(scene);
   EXPECT_LT(without.counts.keypoints, with.counts.keypoints / 2);
   EXPECT_EQ(without.counts.grid_keypoints, with.counts.grid_keypoints);

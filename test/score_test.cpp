@@ -9,7 +9,7 @@ double scoreOfDensity(double density, double half_density = 8) {
   sks::Hypothesis hypothesis;
   hypothesis.density = density;
   sks::Settings settings;
-  settings.verification.candidates = 0;
+  settings.detection.hypotheses = sks::Hypotheses::hough;
   settings.detection.half_density = half_density;
   return sks::score(hypothesis, settings);
 }

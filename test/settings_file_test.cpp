@@ -72,6 +72,10 @@ TEST(SettingsFile, RepeatedKeysAreRefused) {
   EXPECT_EQ(parseError("threads: 1\nthreads: 2\n"), "c.yaml:2: 'threads' is set twice; keep one");
   EXPECT_EQ(parseError("keypoints: {discard: 0.5}\nkeypoints.discard: 0.25\n"),
             "c.yaml:2: 'keypoints.discard' is set twice; keep one");
+  EXPECT_EQ(parseError("keypoints:\n  discard: 0.5\n  discard: 0.5\n"),
+            "c.yaml:3: 'keypoints.discard' is set twice; keep one");
+  EXPECT_EQ(parseError("keypoints: {discard: 0.5}\nkeypoints: {grid_size: 0.03}\n"),
+            "c.yaml:2: 'keypoints' is set twice; keep one");
 }
 
 TEST(SettingsFile, OtherThanOneMapIsRefused) {
@@ -139,9 +143,50 @@ TEST(SettingsFile, CommentsTellHelpUnitRangeDefaultAndBinding) {
   const std::string text = sks::settingsToYaml(sks::Settings(), true);
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
-  EXPECT_NE(text.find("  # drop points at exactly the place of an earlier one (true, false; default true)\n"
-                      "  remove_duplicates: true\n"),
-            std::string::npos);
-  EXPECT_NE(text.find("reference frame (0.002 to 1 [m]; default 0.05;"), std::string::npos);
-  EXPECT_NE(text.find(" codebook)\n  radius: 0.05\n"), std::string::npos);
+  EXPECT_NE(
+      text.find("  # drop each point that has exactly the position of an earlier one (true, false; default true)\n"
+                "  remove_duplicates: true\n"),
+      std::string::npos);
+  const std::size_t radius = text.find("\n  radius: 0.05\n");
+  ASSERT_NE(radius, std::string::npos);
+  const std::string above = text.substr(radius - 120, 120);
+  EXPECT_NE(above.find("(0.002 to 1 [m]; default 0.05;"), std::string::npos) << above;
+  EXPECT_NE(above.find(" codebook)"), std::string::npos) << above;
+}
+
+TEST(SettingsFile, OldNamesStillWorkAndAreWarnedAbout) {
+  sks::Settings settings;
+  std::vector<std::string> warnings;
+  const char* old = "verification:\n  candidates: 0\n  ambiguity: 1.5\n  skip_planes: false\n";
+  sks::parseSettings(old, "c.yaml", settings, &warnings);
+  EXPECT_EQ(settings.detection.hypotheses, sks::Hypotheses::hough);
+  EXPECT_EQ(settings.verification.candidates, sks::Settings().verification.candidates);
+  EXPECT_EQ(settings.matching.ambiguity, 1.5);
+  EXPECT_FALSE(settings.keypoints.skip_planes);
+  EXPECT_EQ(warnings,
+            (std::vector<std::string>{
+                "c.yaml:2: 'verification.candidates = 0' is now called 'detection.hypotheses = hough'; the old name "
+                "still works",
+                "c.yaml:3: 'verification.ambiguity' is now called 'matching.ambiguity'; the old name still works",
+                "c.yaml:4: 'verification.skip_planes' is now called 'keypoints.skip_planes'; the old name still works",
+            }));
+  sks::Settings quiet;
+  sks::parseSettings(old, "c.yaml", quiet);
+  EXPECT_EQ(sks::settingsToYaml(quiet), sks::settingsToYaml(settings));
+
+  warnings.clear();
+  sks::parseSettings("verification.candidates: 7\n", "c.yaml", quiet, &warnings);
+  EXPECT_EQ(quiet.verification.candidates, 7);
+  EXPECT_TRUE(warnings.empty()) << warnings.front();
+}
+
+TEST(SettingsFile, OldAndNewNameAtOnceAreRefused) {
+  EXPECT_EQ(parseError("matching: {ambiguity: 1.2}\nverification:\n  ambiguity: 1.2\n"),
+            "c.yaml:3: 'matching.ambiguity' is set twice, also as 'verification.ambiguity'; keep one");
+  EXPECT_EQ(parseError("verification:\n  skip_planes: true\nkeypoints:\n  skip_planes: true\n"),
+            "c.yaml:4: 'keypoints.skip_planes' is set twice, also as 'verification.skip_planes'; keep one");
+  EXPECT_EQ(parseError("verification:\n  candidates: 0\ndetection: {hypotheses: verified}\n"),
+            "c.yaml:3: 'detection.hypotheses' is set twice, also as 'verification.candidates = 0'; keep one");
+  EXPECT_EQ(parseError("verification: {candidates: 1001}"),
+            "c.yaml:1: verification.candidates = 1001 is out of range: 1 to 1000");
 }

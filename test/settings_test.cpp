@@ -153,6 +153,35 @@ TEST(Settings, BadTextNamesTypeRangeAndUnit) {
   EXPECT_EQ(setError("threads", "99999999999"), "threads = 99999999999: expected a whole number in 0 to 256");
 }
 
+TEST(Settings, OldNamesStillWork) {
+  sks::Settings settings;
+  std::vector<std::string> warnings;
+  sks::setSetting(settings, "verification.ambiguity", "1.1", &warnings);
+  sks::setSetting(settings, "verification.skip_planes", "false", &warnings);
+  sks::setSetting(settings, "verification.candidates", "0", &warnings);
+  EXPECT_EQ(settings.matching.ambiguity, 1.1);
+  EXPECT_FALSE(settings.keypoints.skip_planes);
+  EXPECT_EQ(settings.detection.hypotheses, sks::Hypotheses::hough);
+  EXPECT_EQ(settings.verification.candidates, sks::Settings().verification.candidates);
+  EXPECT_EQ(sks::getSetting(settings, "verification.ambiguity"), "1.1");
+  ASSERT_EQ(warnings.size(), 3u);
+  EXPECT_EQ(warnings[0], "'verification.ambiguity' is now called 'matching.ambiguity'; the old name still works");
+  EXPECT_NO_THROW(sks::setSetting(settings, "verification.ambiguity", "1.2"));
+  EXPECT_EQ(settings.matching.ambiguity, 1.2);
+  settings.verification.candidates = 0;
+  EXPECT_EQ(validateError(settings), "verification.candidates = 0 is out of range: 1 to 1000");
+}
+
+TEST(Settings, HelpTellsWhatALargerOrSmallerNumberDoes) {
+  for (const sks::SettingInfo& each : sks::settingInfos()) {
+    if (each.type != "double" && each.type != "int") continue;
+    const bool says = each.help.find("arger: ") != std::string::npos ||
+                      each.help.find("maller: ") != std::string::npos ||
+                      each.help.find("are dropped") != std::string::npos || each.key == "ransac.seed";
+    EXPECT_TRUE(says) << each.key << ": " << each.help;
+  }
+}
+
 TEST(Settings, RefusedValueLeavesTheOldOne) {
   sks::Settings settings;
   settings.keypoints.discard = 0.25;

@@ -14,6 +14,7 @@ namespace sks {
 enum class DescriptorType { automatic, shot, cshot };
 enum class KeypointDetector { grid, iss };
 enum class SelectionRule { rank, threshold, histogram };
+enum class Hypotheses { verified, hough };
 
 /// Names of an enumeration's values, in their order.
 template <typename Enum>
@@ -29,6 +30,10 @@ struct EnumNames<KeypointDetector> {
 template <>
 struct EnumNames<SelectionRule> {
   static constexpr std::array<const char*, 3> value{"rank", "threshold", "histogram"};
+};
+template <>
+struct EnumNames<Hypotheses> {
+  static constexpr std::array<const char*, 2> value{"verified", "hough"};
 };
 
 /// Closed range of a number.
@@ -51,18 +56,23 @@ struct SanitizeSettings {
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
-    v(s.min_range, "min_range", Range{0, 100}, "m", "points nearer to the sensor are dropped");
-    v(s.max_range, "max_range", Range{0.01, 1000}, "m", "points farther from the sensor are dropped");
-    v(s.remove_duplicates, "remove_duplicates", "drop points at exactly the place of an earlier one");
-    v(s.min_points, "min_points", Range{1, 1000000}, "", "clouds with fewer usable points are refused");
-    v(s.crop, "crop", "keep only points inside the crop box");
+    v(s.min_range, "min_range", Range{0, 100}, "m",
+      "points nearer to the sensor than this are dropped, for example those of the robot's own gripper; 0: none");
+    v(s.max_range, "max_range", Range{0.01, 1000}, "m",
+      "points farther from the sensor than this are dropped; smaller: faster, but objects farther away are not found");
+    v(s.remove_duplicates, "remove_duplicates", "drop each point that has exactly the position of an earlier one");
+    v(s.min_points, "min_points", Range{1, 1000000}, "",
+      "a cloud with fewer usable points is refused with an error; larger: clouds that are nearly empty are reported");
+    v(s.crop, "crop", "keep only the points inside the box from crop_min to crop_max");
     const Range box{-1000, 1000};
-    v(s.crop_min_x, "crop_min_x", box, "m", "lower corner of the crop box, cloud frame");
-    v(s.crop_min_y, "crop_min_y", box, "m", "lower corner of the crop box, cloud frame");
-    v(s.crop_min_z, "crop_min_z", box, "m", "lower corner of the crop box, cloud frame");
-    v(s.crop_max_x, "crop_max_x", box, "m", "upper corner of the crop box, cloud frame");
-    v(s.crop_max_y, "crop_max_y", box, "m", "upper corner of the crop box, cloud frame");
-    v(s.crop_max_z, "crop_max_z", box, "m", "upper corner of the crop box, cloud frame");
+    const char* lowest = "with crop: points with a lower value of this coordinate are dropped; frame of the cloud";
+    const char* highest = "with crop: points with a higher value of this coordinate are dropped; frame of the cloud";
+    v(s.crop_min_x, "crop_min_x", box, "m", lowest);
+    v(s.crop_min_y, "crop_min_y", box, "m", lowest);
+    v(s.crop_min_z, "crop_min_z", box, "m", lowest);
+    v(s.crop_max_x, "crop_max_x", box, "m", highest);
+    v(s.crop_max_y, "crop_max_y", box, "m", highest);
+    v(s.crop_max_z, "crop_max_z", box, "m", highest);
   }
 };
 
@@ -73,11 +83,17 @@ struct SurfaceSettings {
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
-    v(s.resolution, "resolution", Range{0, 0.1}, "m", "the cloud is thinned to one point per cube of this edge; 0: not",
+    v(s.resolution, "resolution", Range{0, 0.1}, "m",
+      "the cloud is thinned to one point for each cube with this edge; larger: faster, but small details are lost; "
+      "0: the cloud is not thinned",
       Binding::codebook);
-    v(s.normal_radius, "normal_radius", Range{0.0005, 0.2}, "m", "neighbourhood from which a normal is estimated",
+    v(s.normal_radius, "normal_radius", Range{0.0005, 0.2}, "m",
+      "a normal is estimated from the points within this radius; larger: less disturbed by sensor noise, but edges and "
+      "small details become blurred",
       Binding::codebook);
-    v(s.normal_min_neighbors, "normal_min_neighbors", Range{3, 1000}, "", "points with fewer neighbours get no normal",
+    v(s.normal_min_neighbors, "normal_min_neighbors", Range{3, 1000}, "",
+      "points with fewer neighbours within normal_radius get no normal; larger: sparse parts of the cloud, whose "
+      "normals are unreliable, are not used",
       Binding::codebook);
   }
 };
@@ -88,6 +104,7 @@ struct KeypointSettings {
   SelectionRule selection = SelectionRule::rank;
   double discard = 0.5;
   double curvature_threshold = 0.001;
+  bool skip_planes = true;
   double iss_salient_radius = 0.02;
   double iss_suppression_radius = 0.01;
   double iss_gamma_21 = 0.975;
@@ -96,20 +113,37 @@ struct KeypointSettings {
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
-    v(s.detector, "detector", "where keypoints lie: voxel grid centroids or ISS");
-    v(s.grid_size, "grid_size", Range{0.001, 0.5}, "m", "edge g of the voxel grid; also the radius of a local surface");
+    v(s.detector, "detector",
+      "where keypoints are placed. grid: at the centroid of the points in each cell of a voxel grid; iss: where the "
+      "surface varies in all directions (Intrinsic Shape Signatures)");
+    v(s.grid_size, "grid_size", Range{0.001, 0.5}, "m",
+      "edge of a cell of the voxel grid, and radius of the surface whose curvature is computed; smaller: more "
+      "keypoints, so small objects are found better, but slower");
     v(s.selection, "selection",
-      "which scene keypoints are kept: a share by rank of Gaussian curvature, all above a fixed threshold, or above "
-      "Otsu's threshold of its histogram");
+      "which keypoints of a scene are kept. rank: the fraction with the highest Gaussian curvature, see discard; "
+      "threshold: all above curvature_threshold; histogram: all above a threshold that Otsu's method chooses for each "
+      "scene");
     v(s.discard, "discard", Range{0, 0.99}, "",
-      "share of the scene keypoints that rank selection drops; 0: no selection");
-    v(s.curvature_threshold, "curvature_threshold", Range{0, 1}, "", "lowest Gaussian curvature that threshold keeps");
-    v(s.iss_salient_radius, "iss_salient_radius", Range{0.001, 0.5}, "m", "ISS: radius of the scatter matrix");
+      "fraction of a scene's keypoints that selection by rank drops, those with the lowest Gaussian curvature; "
+      "larger: faster, but flat and small objects are missed; 0: all keypoints are kept");
+    v(s.curvature_threshold, "curvature_threshold", Range{0, 1}, "",
+      "lowest Gaussian curvature that selection by threshold keeps; larger: fewer keypoints, faster, but flat objects "
+      "are missed");
+    v(s.skip_planes, "skip_planes",
+      "drop keypoints on planes that are larger than every object, such as tables and walls: faster, and they would "
+      "confirm no pose. Only used where detection.hypotheses is verified");
+    v(s.iss_salient_radius, "iss_salient_radius", Range{0.001, 0.5}, "m",
+      "ISS: the variation of the surface is computed within this radius; larger: keypoints at larger structures");
     v(s.iss_suppression_radius, "iss_suppression_radius", Range{0.001, 0.5}, "m",
-      "ISS: radius of non-maxima suppression");
-    v(s.iss_gamma_21, "iss_gamma_21", Range{0, 1}, "", "ISS: upper bound of the second over the first eigenvalue");
-    v(s.iss_gamma_32, "iss_gamma_32", Range{0, 1}, "", "ISS: upper bound of the third over the second eigenvalue");
-    v(s.iss_min_neighbors, "iss_min_neighbors", Range{1, 1000}, "", "ISS: fewest neighbours of a keypoint");
+      "ISS: of keypoints within this radius only the one with the strongest variation stays; larger: fewer keypoints");
+    v(s.iss_gamma_21, "iss_gamma_21", Range{0, 1}, "",
+      "ISS: highest ratio of the second to the first eigenvalue of the points around a keypoint; smaller: fewer "
+      "keypoints");
+    v(s.iss_gamma_32, "iss_gamma_32", Range{0, 1}, "",
+      "ISS: highest ratio of the third to the second eigenvalue of the points around a keypoint; smaller: fewer "
+      "keypoints");
+    v(s.iss_min_neighbors, "iss_min_neighbors", Range{1, 1000}, "",
+      "ISS: points with fewer neighbours are no keypoints; larger: fewer keypoints in sparse parts of the cloud");
   }
 };
 
@@ -121,15 +155,33 @@ struct DescriptorSettings {
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
-    v(s.type, "type", "SHOT (shape), CSHOT (shape and colour), or auto: CSHOT where all training clouds have colour",
+    v(s.type, "type",
+      "what a descriptor describes. shot: shape; cshot: shape and colour; auto: cshot where all training clouds have "
+      "colour, else shot",
       Binding::codebook);
-    v(s.radius, "radius", Range{0.002, 1}, "m", "support radius of descriptor and local reference frame",
+    v(s.radius, "radius", Range{0.002, 1}, "m",
+      "radius of the surface around a keypoint that its descriptor and its local reference frame describe; larger: "
+      "different objects are told apart better, but clutter and occlusion disturb more, and it is slower",
       Binding::codebook);
     v(s.model_facing, "model_facing", Range{-1, 1}, "",
-      "training on full models: only the part of the support whose normals have at least this cosine with the "
-      "keypoint's own is described, since a camera cannot see the far side; -1: all of it",
+      "training on full models: a descriptor takes only points whose normal has at least this cosine with the normal "
+      "of its keypoint, because a camera cannot see the far side; larger: fewer points are taken; -1: all are taken",
       Binding::codebook);
-    v(s.min_neighbors, "min_neighbors", Range{5, 10000}, "", "keypoints with fewer neighbours get no descriptor");
+    v(s.min_neighbors, "min_neighbors", Range{5, 10000}, "",
+      "keypoints with fewer points within radius get no descriptor; larger: sparse parts of the cloud are not used");
+  }
+};
+
+struct MatchingSettings {
+  double ambiguity = 1.3;
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& s, Visitor&& v) {
+    v(s.ambiguity, "ambiguity", Range{1, 10}, "",
+      "a descriptor votes for the nearest codeword of each object whose distance is at most this factor times the "
+      "distance of the nearest of all codewords, with less weight the farther it is; larger: objects that look alike "
+      "are confused less, but slower; 1: only the nearest codeword, as published. It counts as 1 in scenes where "
+      "detection.hypotheses is hough");
   }
 };
 
@@ -142,12 +194,19 @@ struct VotingSettings {
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
-    v(s.bandwidth, "bandwidth", Range{0.001, 1}, "m", "bandwidth h of mean shift and density (eq. 3)");
-    v(s.max_iterations, "max_iterations", Range{1, 10000}, "", "most mean shift steps of a seed");
-    v(s.tolerance, "tolerance", Range{1e-9, 0.01}, "m", "mean shift stops at steps shorter than this");
+    v(s.bandwidth, "bandwidth", Range{0.001, 1}, "m",
+      "bandwidth h of mean shift and of the density of votes (eq. 3): votes about this near to each other support each "
+      "other; larger: inexact votes still meet, but objects that stand close together merge");
+    v(s.max_iterations, "max_iterations", Range{1, 10000}, "",
+      "most steps of mean shift from each start; smaller: faster, but maxima may be found inexactly");
+    v(s.tolerance, "tolerance", Range{1e-9, 0.01}, "m",
+      "mean shift stops at a step shorter than this; smaller: maxima are found more exactly, but slower");
     v(s.suppression_radius, "suppression_radius", Range{0, 1}, "m",
-      "of two maxima of one class nearer than this the weaker is dropped");
-    v(s.min_votes, "min_votes", Range{1, 1000}, "", "maxima with fewer votes are dropped");
+      "of two hypotheses for one object whose positions are nearer to each other than this, the weaker one is dropped; "
+      "larger: no object is found twice, but two of a kind that touch are found as one");
+    v(s.min_votes, "min_votes", Range{1, 1000}, "",
+      "maxima with fewer votes are dropped; larger: fewer false detections, but objects of which little is seen are "
+      "missed");
   }
 };
 
@@ -159,10 +218,17 @@ struct RansacSettings {
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
-    v(s.inlier_threshold, "inlier_threshold", Range{0.0005, 0.5}, "m", "farthest that an inlier pair may lie apart");
-    v(s.iterations, "iterations", Range{1, 100000}, "", "most samples of a maximum");
-    v(s.min_inliers, "min_inliers", Range{1, 1000}, "", "hypotheses with fewer inliers are dropped");
-    v(s.seed, "seed", Range{0, 2147483647}, "", "seed of the samples; same seed, same result");
+    v(s.inlier_threshold, "inlier_threshold", Range{0.0005, 0.5}, "m",
+      "a correspondence is an inlier of a pose that brings its two points within this distance; larger: inexact "
+      "correspondences count, but so do more wrong ones");
+    v(s.iterations, "iterations", Range{1, 100000}, "",
+      "most poses that RANSAC tries for one maximum of the votes; larger: the best one is found more surely, but "
+      "slower");
+    v(s.min_inliers, "min_inliers", Range{1, 1000}, "",
+      "hypotheses with fewer inliers are dropped; larger: fewer false detections, but objects of which little is seen "
+      "are missed");
+    v(s.seed, "seed", Range{0, 2147483647}, "",
+      "start of the random numbers; the same seed gives the same result, another one a slightly different result");
   }
 };
 
@@ -175,19 +241,25 @@ struct RefinementSettings {
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
-    v(s.iterations, "iterations", Range{0, 1000}, "", "rounds of ICP against the stored surface; 0: no refinement");
-    v(s.start_distance, "start_distance", Range{0.0005, 0.5}, "m", "farthest pairs of the first round");
-    v(s.end_distance, "end_distance", Range{0.0005, 0.5}, "m", "farthest pairs of the last round");
+    v(s.iterations, "iterations", Range{0, 1000}, "",
+      "rounds of ICP that fit the stored surface of an object to the scene; larger: more exact poses, but slower; 0: "
+      "poses are not refined");
+    v(s.start_distance, "start_distance", Range{0.0005, 0.5}, "m",
+      "in the first round of ICP points up to this distance are paired; larger: poses that are farther off can be "
+      "corrected, but neighbouring objects disturb more");
+    v(s.end_distance, "end_distance", Range{0.0005, 0.5}, "m",
+      "in the last round of ICP points up to this distance are paired; smaller: more exact, but too few pairs where "
+      "the sensor is noisy");
     v(s.max_points, "max_points", Range{10, 1000000}, "",
-      "most points of the stored surface that are used, spread evenly");
-    v(s.min_density, "min_density", Range{0, 10000}, "votes", "hypotheses of lower density are not refined");
+      "most points of the stored surface that ICP uses, spread evenly; larger: more exact poses, but slower");
+    v(s.min_density, "min_density", Range{0, 10000}, "votes",
+      "where detection.hypotheses is hough, only hypotheses of at least this density are refined; larger: faster, but "
+      "the poses of weak hypotheses are less exact");
   }
 };
 
 struct VerificationSettings {
   int candidates = 80;
-  double ambiguity = 1.3;
-  bool skip_planes = true;
   double support_distance = 0.008;
   double support_angle = 0.45;
   double occlusion_distance = 0.015;
@@ -196,38 +268,49 @@ struct VerificationSettings {
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
-    v(s.candidates, "candidates", Range{0, 1000}, "",
-      "poses of each object, from single correspondences, that are refined and compared with the stored surface; 0: "
-      "hypotheses are the Hough maxima that pass RANSAC, scored by their votes alone, as published");
-    v(s.ambiguity, "ambiguity", Range{1, 10}, "",
-      "each object's nearest codeword votes too, with less weight, where its distance is within this factor of the "
-      "nearest of all; 1: only the nearest, as published. In scenes it needs candidates above 0");
-    v(s.skip_planes, "skip_planes",
-      "keypoints on planes that are larger than every object (tables, walls) are not described: what lies there "
-      "confirms no pose. Needs candidates above 0");
+    v(s.candidates, "candidates", Range{1, 1000}, "",
+      "most poses of each object that are refined and compared with the scene; larger: more objects are found in "
+      "clutter, but slower. Only used where detection.hypotheses is verified");
     v(s.support_distance, "support_distance", Range{0.0005, 0.1}, "m",
-      "a point of the stored surface is confirmed by a scene point within this distance");
-    v(s.support_angle, "support_angle", Range{0.01, 1.5}, "rad", "... whose normal deviates by no more than this");
+      "a point of the stored surface is confirmed by a scene point within this distance whose normal agrees, see "
+      "support_angle; larger: noisy and inexact surfaces are confirmed, but so are more wrong poses");
+    v(s.support_angle, "support_angle", Range{0.01, 1.5}, "rad",
+      "largest angle between the normals of a point of the stored surface and of the scene point that confirms it; "
+      "larger: noisy surfaces are confirmed, but so are more wrong poses");
     v(s.occlusion_distance, "occlusion_distance", Range{0.0005, 0.5}, "m",
-      "what lies this far behind the scene's surface is hidden; what lies this far in front of it should be seen");
+      "a point of the stored surface is occluded, which counts neither for nor against a pose, where it is more than "
+      "this behind what the sensor saw; nearer, and not confirmed, it contradicts the pose; larger: more wrong poses "
+      "are refused, but also right ones of objects that are partly occluded");
     v(s.color_tolerance, "color_tolerance", Range{0, 1000}, "CIELab",
-      "where codebook and scene have colours, what differs by this much from the stored colour (lightness counts half) "
-      "confirms it by 0.6 only, and so on with a Gaussian; 0: colours are not compared");
-    v(s.half_evidence, "half_evidence", Range{0.001, 1000}, "", "evidence that scores 0.5 (docs/method.md)");
+      "where codebook and scene have colour: difference in colour at which a scene point confirms a point of the "
+      "stored surface with only 0.6 of its weight; the weight falls further with larger differences (lightness counts "
+      "half). Larger: other light is tolerated, but objects of one shape are confused; 0: colours are not compared");
+    v(s.half_evidence, "half_evidence", Range{0.001, 1000}, "",
+      "evidence for a pose (docs/method.md) that gives the score 0.5; larger: all scores are lower. Only used where "
+      "detection.hypotheses is verified");
   }
 };
 
 struct DetectionSettings {
+  Hypotheses hypotheses = Hypotheses::verified;
   double threshold = 0.5;
   double half_density = 8.0;
   int max_per_object = 20;
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
-    v(s.threshold, "threshold", Range{0, 1}, "", "lowest score of a detection that is reported");
+    v(s.hypotheses, "hypotheses",
+      "where the poses of detections in scenes come from. verified: from single correspondences, refined and compared "
+      "with the stored surface; finds more with fewer false detections. hough: from the maxima of the votes that pass "
+      "RANSAC, scored by their votes alone, as published");
+    v(s.threshold, "threshold", Range{0, 1}, "",
+      "lowest score of a detection that is reported; larger: fewer false detections, but more objects are missed");
     v(s.half_density, "half_density", Range{0.001, 10000}, "votes",
-      "density of the inliers' votes that scores 0.5 where poses are not verified");
-    v(s.max_per_object, "max_per_object", Range{1, 1000}, "", "most hypotheses of one object in one scene");
+      "density of the inliers' votes that gives the score 0.5; larger: all scores are lower. Only used where "
+      "hypotheses is hough");
+    v(s.max_per_object, "max_per_object", Range{1, 1000}, "",
+      "most detections of one object in one scene, the best ones; smaller: faster, but of many equal objects some are "
+      "missed");
   }
 };
 
@@ -237,7 +320,8 @@ struct TrainingSettings {
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
     v(s.surface_resolution, "surface_resolution", Range{0.001, 0.1}, "m",
-      "edge of the cubes to which a training view's stored surface is thinned");
+      "the surface of each training view is stored with one point for each cube with this edge; smaller: poses are "
+      "verified in more detail, but codebooks are larger and detection is slower");
   }
 };
 
@@ -247,6 +331,7 @@ struct Settings {
   SurfaceSettings surface;
   KeypointSettings keypoints;
   DescriptorSettings descriptor;
+  MatchingSettings matching;
   VotingSettings voting;
   RansacSettings ransac;
   RefinementSettings refinement;
@@ -261,20 +346,23 @@ struct Settings {
     v.group("surface", s.surface);
     v.group("keypoints", s.keypoints);
     v.group("descriptor", s.descriptor);
+    v.group("matching", s.matching);
     v.group("voting", s.voting);
     v.group("ransac", s.ransac);
     v.group("refinement", s.refinement);
     v.group("verification", s.verification);
     v.group("detection", s.detection);
     v.group("training", s.training);
-    v(s.threads, "threads", Range{0, 256}, "", "threads for training and detection; 0: one for each core");
+    v(s.threads, "threads", Range{0, 256}, "",
+      "threads for training and detection; smaller: slower, but more of the processor is left to other programs; 0: "
+      "one for each core");
   }
 };
 
 /// What a front end needs to know about one setting.
 struct SettingInfo {
   std::string key;            ///< dotted, e.g. "keypoints.discard"
-  std::string type;           ///< "double", "int", "bool" or "choice"
+  std::string type;           ///< "double", "int", "bool", "choice" or, of node and camera, "string"
   std::string default_value;  ///< as getSetting() would print it
   Range range;                ///< of numbers
   std::string unit;           ///< "m", or empty for a plain number
@@ -286,11 +374,18 @@ struct SettingInfo {
 /// All settings in the order of the stages.
 const std::vector<SettingInfo>& settingInfos();
 
+// Old names of settings are still understood by the functions below: `verification.ambiguity` (now
+// `matching.ambiguity`), `verification.skip_planes` (`keypoints.skip_planes`) and `verification.candidates` with the
+// value 0 (`detection.hypotheses` with the value `hough`).
+
 /// The value of one setting as text that setSetting() takes back unchanged. @throws Error(bad_usage) for an unknown key
 std::string getSetting(const Settings& settings, const std::string& key);
 
-/// Sets one setting from text. @throws Error(bad_usage) naming the nearest known key, or the type, range and unit
-void setSetting(Settings& settings, const std::string& key, const std::string& value);
+/// Sets one setting from text.
+/// @param warnings takes a message if `key` is an old name; may be null
+/// @throws Error(bad_usage) naming the nearest known key, or the type, range and unit; the old value then stays
+void setSetting(Settings& settings, const std::string& key, const std::string& value,
+                std::vector<std::string>* warnings = nullptr);
 
 /// Checks each range, and what must hold between settings. @throws Error(bad_usage) naming keys and values
 void validate(const Settings& settings);

@@ -8,6 +8,8 @@
 
 #include <sks_detector/settings.hpp>
 
+#include "core/settings/settings_table.hpp"
+
 namespace sks::baselines {
 
 /// Discrete 3-D Hough voting (Tombari and Di Stefano 2010).
@@ -20,11 +22,15 @@ struct TombariSettings {
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
-    v(s.bin_size, "bin_size", Range{0.001, 1}, "m", "edge of the bins of the Hough space, and of RANSAC's inliers");
-    v(s.votes, "votes", Range{1, 10000}, "", "fewest votes of a bin that is a hypothesis");
+    v(s.bin_size, "bin_size", Range{0.001, 1}, "m",
+      "edge of a bin of the Hough space, and inlier threshold of RANSAC; larger: inexact votes still meet, but objects "
+      "that stand close together merge");
+    v(s.votes, "votes", Range{1, 10000}, "",
+      "fewest votes in a bin that make a hypothesis; larger: fewer false detections, but more objects are missed");
     v(s.interpolate, "interpolate", "spread each vote over the neighbouring bins");
-    v(s.weigh, "weigh", "votes of nearer descriptors weigh more");
-    v(s.half_inliers, "half_inliers", Range{0.001, 10000}, "", "inliers that score 0.5");
+    v(s.weigh, "weigh", "give votes of nearer descriptors more weight");
+    v(s.half_inliers, "half_inliers", Range{0.001, 10000}, "",
+      "number of inliers that gives the score 0.5; larger: all scores are lower");
   }
 };
 
@@ -37,9 +43,13 @@ struct ChenSettings {
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
     v(s.resolution, "resolution", Range{0.0005, 1}, "m",
-      "by how much distances within a group may differ between model and scene");
-    v(s.consensus, "consensus", Range{3, 10000}, "", "fewest correspondences of a group");
-    v(s.half_inliers, "half_inliers", Range{0.001, 10000}, "", "inliers that score 0.5");
+      "correspondences are grouped where their distances in model and scene differ by less than this; larger: larger "
+      "groups, but with more wrong correspondences");
+    v(s.consensus, "consensus", Range{3, 10000}, "",
+      "fewest correspondences in a group that make a hypothesis; larger: fewer false detections, but more objects are "
+      "missed");
+    v(s.half_inliers, "half_inliers", Range{0.001, 10000}, "",
+      "number of inliers that gives the score 0.5; larger: all scores are lower");
   }
 };
 
@@ -58,19 +68,34 @@ struct AldomaSettings {
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
-    v(s.hypotheses, "hypotheses", Range{1, 10000}, "", "most hypotheses, those with most inliers, that are verified");
-    v(s.resolution, "resolution", Range{0.001, 0.1}, "m", "scene and models are thinned to cubes of this edge");
-    v(s.inlier_distance, "inlier_distance", Range{0.001, 0.2}, "m", "a scene point this near is explained by a model");
+    v(s.hypotheses, "hypotheses", Range{1, 10000}, "",
+      "most hypotheses that are verified, those with most inliers; larger: more objects are found, but slower");
+    v(s.resolution, "resolution", Range{0.001, 0.1}, "m",
+      "scene and models are thinned to one point for each cube with this edge; smaller: more exact, but slower");
+    v(s.inlier_distance, "inlier_distance", Range{0.001, 0.2}, "m",
+      "a scene point within this distance of a model point is explained by the model; larger: inexact poses are "
+      "accepted");
     v(s.occlusion_distance, "occlusion_distance", Range{0.0005, 0.5}, "m",
-      "model points this far behind the scene's surface are hidden");
-    v(s.outlier_weight, "outlier_weight", Range{0, 1000}, "", "what a visible model point without scene points costs");
+      "model points more than this behind the scene's surface are occluded and cost nothing; larger: more of them "
+      "count as visible");
+    v(s.outlier_weight, "outlier_weight", Range{0, 1000}, "",
+      "cost of a visible model point without scene points near it; larger: fewer hypotheses are accepted");
     v(s.clutter_weight, "clutter_weight", Range{0, 1000}, "",
-      "what an unexplained scene point costs that continues the surface of an explained one");
-    v(s.clutter_radius, "clutter_radius", Range{0.001, 1}, "m", "how near to an explained point that must be");
-    v(s.normal_radius, "normal_radius", Range{0.001, 0.2}, "m", "neighbourhood of the thinned scene's normals");
+      "cost of an unexplained scene point on the same smooth surface as an explained one; larger: fewer hypotheses "
+      "that "
+      "cover only a part of a surface are accepted");
+    v(s.clutter_radius, "clutter_radius", Range{0.001, 1}, "m",
+      "an unexplained scene point costs clutter_weight only within this distance of an explained one; larger: more of "
+      "them cost");
+    v(s.normal_radius, "normal_radius", Range{0.001, 0.2}, "m",
+      "normals of the thinned scene are estimated from the points within this radius; larger: less disturbed by noise, "
+      "but edges become blurred");
     v(s.annealing_steps, "annealing_steps", Range{1, 100000}, "",
-      "steps of simulated annealing; also the temperature that it starts from");
-    v(s.half_inliers, "half_inliers", Range{0.001, 10000}, "", "inliers at which what was accepted scores 0.5");
+      "steps of the simulated annealing that chooses the hypotheses, and its first temperature; larger: the best "
+      "choice "
+      "is found more surely, but slower");
+    v(s.half_inliers, "half_inliers", Range{0.001, 10000}, "",
+      "number of inliers of an accepted hypothesis that gives the score 0.5; larger: all scores are lower");
   }
 };
 
@@ -88,18 +113,31 @@ struct ZhouSettings {
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
-    v(s.bin_size, "bin_size", Range{0.001, 1}, "m", "edge of the bins of the Hough space");
+    v(s.bin_size, "bin_size", Range{0.001, 1}, "m",
+      "edge of a bin of the Hough space; larger: inexact votes still meet, but objects that stand close together "
+      "merge");
     v(s.peak_share, "peak_share", Range{0.01, 1}, "",
-      "a bin is a hypothesis from this share of the votes of the model's highest bin on");
-    v(s.votes, "votes", Range{1, 10000}, "", "fewest votes of a bin, whatever the highest has");
+      "a bin makes a hypothesis if it has at least this fraction of the votes of the model's highest bin; larger: "
+      "fewer "
+      "hypotheses");
+    v(s.votes, "votes", Range{1, 10000}, "",
+      "fewest votes in a bin that make a hypothesis, whatever the highest bin has; larger: fewer hypotheses");
     v(s.first_spacings, "first_spacings", Range{0.01, 100}, "",
-      "inlier threshold of the first RANSAC, in spacings of the model's keypoints");
-    v(s.second_spacings, "second_spacings", Range{0.01, 100}, "", "the same of the second, among what fits the first");
+      "inlier threshold of the first RANSAC, as a multiple of the spacing of the model's keypoints; larger: inexact "
+      "correspondences count, but so do more wrong ones");
+    v(s.second_spacings, "second_spacings", Range{0.01, 100}, "",
+      "inlier threshold of the second RANSAC, which works on the inliers of the first, as a multiple of the same "
+      "spacing");
     v(s.first_support, "first_support", Range{0, 1}, "",
-      "lowest share of the model's surface facing the sensor that lies at scene points after the first ICP");
-    v(s.second_support, "second_support", Range{0, 1}, "", "the same after the second ICP");
-    v(s.support_distance, "support_distance", Range{0.0005, 0.2}, "m", "how near these scene points are");
-    v(s.half_inliers, "half_inliers", Range{0.001, 10000}, "", "inliers, times support, that score 0.5");
+      "after the first ICP, hypotheses are dropped of whose surface that faces the sensor a lower fraction lies at "
+      "scene points, see support_distance; larger: fewer false detections, but occluded objects are missed");
+    v(s.second_support, "second_support", Range{0, 1}, "", "the same fraction after the second ICP");
+    v(s.support_distance, "support_distance", Range{0.0005, 0.2}, "m",
+      "a point of a model's surface lies at the scene if a scene point is within this distance; larger: inexact poses "
+      "are accepted");
+    v(s.half_inliers, "half_inliers", Range{0.001, 10000}, "",
+      "number of inliers, times the fraction of the surface at scene points, that gives the score 0.5; larger: all "
+      "scores are lower");
   }
 };
 
@@ -112,23 +150,31 @@ struct KnoppSettings {
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
-    v(s.clusters, "clusters", Range{1, 100000}, "", "visual words that the descriptors are clustered to");
-    v(s.sigma, "sigma", Range{0.001, 1}, "m", "width of the votes' kernel");
+    v(s.clusters, "clusters", Range{1, 100000}, "",
+      "number of visual words into which the descriptors are clustered; larger: words tell more shapes apart, but each "
+      "stands for fewer of them, and it is slower");
+    v(s.sigma, "sigma", Range{0.001, 1}, "m",
+      "width of the kernel of a vote; larger: inexact votes support each other, but so do more wrong ones");
     v(s.learning_sigma, "learning_sigma", Range{0.001, 100}, "m",
-      "votes weigh less whose word points to places that differ by this much in training; large: all the same");
-    v(s.vote_weight, "vote_weight", "divide by the number of votes that a word casts (eq. 4 of that paper)");
+      "how far apart the positions may be to which a word pointed in training before its votes lose weight; larger: "
+      "fewer lose weight, at last none");
+    v(s.vote_weight, "vote_weight",
+      "divide the weight of a word's votes by their number, so that common words count no more than rare ones (eq. 4 "
+      "of "
+      "that paper)");
   }
 };
 
 /// Continuous voting with votes weighted by distance ratio (Seib et al. 2015), to classify; how far the ratio may go is
-/// `verification.ambiguity`.
+/// `matching.ambiguity`.
 struct SeibSettings {
   bool balance = true;
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
     v(s.balance, "balance",
-      "density over the root of the class's codewords: who has more of them catches more by chance");
+      "divide the density of a class's votes by the root of the number of its codewords: classes with more codewords "
+      "get more votes by chance");
   }
 };
 
@@ -152,19 +198,10 @@ struct MethodSettings {
   }
 };
 
-/// All of them in their order.
-const std::vector<SettingInfo>& methodSettingInfos();
-
-/// Whether a key, or the name of a group, is one of these settings' and not the detector's.
-bool isMethodSetting(const std::string& key);
-
-/// @throws Error(bad_usage) for an unknown key
-std::string getMethodSetting(const MethodSettings& settings, const std::string& key);
-
-/// Sets one from text. @throws Error(bad_usage) naming the nearest known key, or the type, range and unit
-void setMethodSetting(MethodSettings& settings, const std::string& key, const std::string& value);
+const SettingsTable<MethodSettings>& methodTable();
 
 /// Overlays a YAML file with settings of the detector and of methods. @throws like loadSettings()
-void loadMethodSettings(const std::string& path, Settings& settings, MethodSettings& own);
+void loadMethodSettings(const std::string& path, Settings& settings, MethodSettings& own,
+                        std::vector<std::string>* warnings = nullptr);
 
 }  // namespace sks::baselines

@@ -9,16 +9,12 @@
 #include <sks_detector/codebook_file.hpp>
 
 #include "core/settings/value_text.hpp"
+#include "ros/with_queue.hpp"
 
 namespace sks_detector {
 namespace {
 
 constexpr double watch_period = 0.5;  // [s]
-
-ros::NodeHandle withQueue(ros::NodeHandle handle, ros::CallbackQueue& queue) {
-  handle.setCallbackQueue(&queue);
-  return handle;
-}
 
 /// A node leaves one core to the rest of the robot, unless it is told how many threads to use.
 sks::Settings withThreads(sks::Settings settings) {

@@ -7,6 +7,7 @@
 
 #include "ros/cloud_message.hpp"
 #include "ros/detection_message.hpp"
+#include "ros/frame_name.hpp"
 #include "ros/markers.hpp"
 
 namespace sks_detector {

@@ -26,22 +26,32 @@ struct NodeSettings {
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
     using sks::Range;
-    v(s.codebook, "codebook", "codebook file that is loaded at the start; empty: none");
+    v(s.codebook, "codebook",
+      "codebook file that is loaded when the node starts; empty: none, and nothing is detected until a service loads "
+      "or "
+      "trains one");
     v(s.codebook_directory, "codebook_directory",
       "folder that services load codebooks from and save them to; empty: that of ~codebook, else ~/.ros/sks_detector");
     v(s.dataset_directory, "dataset_directory",
       "folder that services train from and keep captured views in; empty: ~/.ros/sks_detector/datasets");
-    v(s.target_frame, "target_frame", "frame of the detections; empty: that of the cloud");
+    v(s.target_frame, "target_frame",
+      "frame in which detections are published, e.g. map; empty: the frame of the cloud");
     v(s.sensor_frame, "sensor_frame",
-      "frame of the camera, where clouds come in another frame, e.g. base_link; empty: that of the cloud");
+      "frame of the camera, looking along z; set it where clouds come in another frame, e.g. base_link; empty: clouds "
+      "are in the frame of the camera");
     v(s.tf_timeout, "tf_timeout", Range{0, 60}, "s",
-      "longest wait for the transforms of ~target_frame and ~sensor_frame");
-    v(s.max_input_age, "max_input_age", Range{0, 3600}, "s", "older clouds are dropped; 0: none");
-    v(s.max_points, "max_points", Range{1, 100000000}, "", "clouds with more points are refused");
-    v(s.silence_warning, "silence_warning", Range{0, 3600}, "s", "a warning after so long without a cloud; 0: never");
-    v(s.service_timeout, "service_timeout", Range{0.1, 3600}, "s", "longest wait of a service for the next cloud");
-    v(s.always_on, "always_on", "process clouds even while nobody listens");
-    v(s.publish_tf, "publish_tf", "broadcast the pose of each detection as a transform");
+      "longest wait for the transforms to target_frame and sensor_frame; a cloud whose transforms come later is not "
+      "used; larger: late transforms are waited for, but each wait delays detection");
+    v(s.max_input_age, "max_input_age", Range{0, 3600}, "s",
+      "clouds whose stamp is older than this are dropped; 0: none are dropped");
+    v(s.max_points, "max_points", Range{1, 100000000}, "",
+      "clouds with more points are refused with an error: they would take minutes");
+    v(s.silence_warning, "silence_warning", Range{0, 3600}, "s",
+      "time without a cloud after which the node warns; 0: it never warns");
+    v(s.service_timeout, "service_timeout", Range{0.1, 3600}, "s",
+      "longest time that a service waits for the next cloud before it fails");
+    v(s.always_on, "always_on", "detect in every cloud, also while nobody has subscribed to the results");
+    v(s.publish_tf, "publish_tf", "broadcast the pose of each detection as a transform (tf)");
   }
 };
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <XmlRpcValue.h>
+#include <sks_detector/error.hpp>
 
 #include "core/settings/value_text.hpp"
 
@@ -12,62 +12,95 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-std::string textOf(XmlRpcValue value) {
+constexpr int deepest = 16;  // maps in maps; ours need 2
+
+struct Leaf {
+  std::string key, text;
+  bool scalar = true;
+  bool too_deep = false;
+};
+
+Leaf leafOf(const std::string& key, XmlRpcValue& value) {
   switch (value.getType()) {
     case XmlRpcValue::TypeBoolean:
-      return sks::toText(bool(value));
+      return {key, sks::toText(bool(value))};
     case XmlRpcValue::TypeInt:
-      return sks::toText(int(value));
+      return {key, sks::toText(int(value))};
     case XmlRpcValue::TypeDouble:
-      return sks::toText(double(value));
+      return {key, sks::toText(double(value))};
     case XmlRpcValue::TypeString:
-      return std::string(value);
+      return {key, std::string(value)};
     case XmlRpcValue::TypeArray:
-      return "a list";
+      return {key, "a list", false};
     case XmlRpcValue::TypeStruct:
-      return "a map";
+      return {key, "a map", false};
     default:
-      return "nothing";
+      return {key, "nothing", false};
   }
 }
 
-void flatten(XmlRpcValue& tree, const std::string& prefix, const std::function<bool(const std::string&)>& is_parameter,
-             std::map<std::string, std::string>& leaves) {
+/// Maps are groups, but not where a parameter has that name. One key may come twice: as `a: {b: 1}` and as `a.b: 1`.
+void flatten(XmlRpcValue& tree, const std::string& prefix, int depth, const sks::SettingsOverlay& overlay,
+             std::vector<Leaf>& leaves) {
   for (auto& [name, value] : tree) {
     const std::string key = prefix + name;
-    if (value.getType() == XmlRpcValue::TypeStruct && !is_parameter(key)) {
-      flatten(value, key + ".", is_parameter, leaves);
+    if (value.getType() != XmlRpcValue::TypeStruct || overlay.isKey(key)) {
+      leaves.push_back(leafOf(key, value));
+    } else if (depth == deepest) {
+      leaves.push_back({key, "", false, true});
     } else {
-      leaves[key] = textOf(value);
+      flatten(value, key + ".", depth + 1, overlay, leaves);
     }
   }
+}
+
+}  // namespace
+
+XmlRpcValue readParameterTree(const ros::NodeHandle& private_handle) {
+  XmlRpcValue tree;
+  private_handle.getParam("", tree);
+  return tree;
+}
+
+TreeReading overlayParameters(XmlRpcValue tree, const std::string& name_space, sks::SettingsOverlay& overlay) {
+  TreeReading reading;
+  std::vector<Leaf> leaves;
+  if (tree.getType() == XmlRpcValue::TypeStruct) flatten(tree, "", 1, overlay, leaves);
+  const auto nameOf = [&](const std::string& key) { return name_space + "/" + withSlashes(key); };
+  const auto isThere = [&](const sks::Assignment& assignment) {
+    return std::any_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
+      return leaf.key == assignment.key && leaf.text == assignment.text && leaf.scalar;
+    });
+  };
+  for (const Leaf& leaf : leaves) {
+    const std::string name = nameOf(leaf.key);
+    if (leaf.too_deep) {
+      reading.warnings.push_back("parameter " + name + " is ignored: it is nested too deeply");
+      continue;
+    }
+    if (!overlay.isKey(leaf.key)) {
+      reading.warnings.push_back("unknown parameter " + name + " is ignored: did you mean " +
+                                 nameOf(overlay.nearest(leaf.key)) + "?");
+      continue;
+    }
+    const sks::Assignment wanted = overlay.resolve(leaf.key, leaf.text);
+    const std::string moved = movedText(wanted);
+    if (!moved.empty()) reading.warnings.push_back("parameter " + name + ": " + moved);
+    if (!moved.empty() && isThere(wanted)) continue;
+    try {
+      if (!leaf.scalar) overlay.refuse(leaf.key, leaf.text);
+      overlay.set(leaf.key, leaf.text);
+      reading.given.push_back(wanted.key);
+    } catch (const sks::Error& error) {
+      reading.refused.push_back({wanted.key, "parameter " + name + ": " + error.what()});
+    }
+  }
+  return reading;
 }
 
 std::string withSlashes(std::string key) {
   std::replace(key.begin(), key.end(), '.', '/');
   return key;
-}
-
-}  // namespace
-
-std::map<std::string, std::string> readParameterTree(const ros::NodeHandle& private_handle,
-                                                     const std::function<bool(const std::string& key)>& is_parameter) {
-  XmlRpcValue tree;
-  std::map<std::string, std::string> leaves;
-  if (private_handle.getParam("", tree) && tree.getType() == XmlRpcValue::TypeStruct) {
-    flatten(tree, "", is_parameter, leaves);
-  }
-  return leaves;
-}
-
-std::string parameterName(const ros::NodeHandle& private_handle, const std::string& key) {
-  return private_handle.getNamespace() + "/" + withSlashes(key);
-}
-
-std::string unknownParameter(const ros::NodeHandle& private_handle, const std::string& key,
-                             const std::string& nearest) {
-  return "unknown parameter " + parameterName(private_handle, key) + " is ignored: did you mean " +
-         parameterName(private_handle, nearest) + "?";
 }
 
 void writeParameter(const ros::NodeHandle& private_handle, const std::string& key, const std::string& type,

@@ -7,50 +7,57 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/detector_table.hpp"
 #include "ros/parameter_tree.hpp"
 
 namespace sks_detector {
 
 ParameterReading readParameters(const ros::NodeHandle& private_handle) {
+  return readParameters(readParameterTree(private_handle), private_handle.getNamespace());
+}
+
+ParameterReading readParameters(const XmlRpc::XmlRpcValue& tree, const std::string& name_space) {
   ParameterReading reading;
-  Configuration configuration;
-  bool detector_usable = true;
-  const auto is_parameter = [](const std::string& key) { return findParameter(key) != nullptr; };
-  for (const auto& [key, text] : readParameterTree(private_handle, is_parameter)) {
-    if (!is_parameter(key)) {
-      reading.warnings.push_back(unknownParameter(private_handle, key, nearestParameter(key)));
-      continue;
-    }
-    try {
-      setParameter(configuration, key, text);
-      reading.given.push_back(key);
-    } catch (const sks::Error& error) {
-      reading.errors.push_back("parameter " + parameterName(private_handle, key) + ": " + error.what());
-      detector_usable = detector_usable && isNodeSetting(key);
-    }
+  sks::Settings& detector = reading.configuration.detector;
+  sks::SettingsOverlay overlay(bound(reading.configuration));
+  TreeReading from_tree = overlayParameters(tree, name_space, overlay);
+  reading.given = std::move(from_tree.given);
+  reading.warnings = std::move(from_tree.warnings);
+  std::vector<std::string> of_detector;
+  for (const TreeReading::Refused& refused : from_tree.refused) {
+    const bool of_node = nodeTable().find(refused.key) != nullptr;
+    (of_node ? reading.errors : of_detector).push_back(refused.message);
   }
   try {
-    if (detector_usable) sks::validate(configuration.detector);
+    if (of_detector.empty()) sks::validate(detector);
   } catch (const sks::Error& error) {
-    reading.errors.push_back("parameters in " + private_handle.getNamespace() + "/: " + error.what());
-    detector_usable = false;
+    of_detector.push_back("parameters in " + name_space + "/: " + error.what());
   }
-  if (!detector_usable) {
-    reading.errors.back() += "; all settings of the detector stay at their defaults";
-    configuration.detector = sks::Settings();
-  }
-  reading.configuration = std::move(configuration);
+  if (of_detector.empty()) return reading;
+  of_detector.back() += "; all settings of the detector stay at their defaults";
+  reading.errors.insert(reading.errors.end(), of_detector.begin(), of_detector.end());
+  detector = sks::Settings();
   return reading;
 }
 
 void ParameterMirror::write(const Configuration& configuration) {
   // roscpp would wait for a master that is gone, for ever; what is not told now is told with the next change
   if (!ros::master::check()) return;
+  if (written_.empty()) deleteOldNames();
   for (const sks::SettingInfo& info : parameterInfos()) {
     const std::string text = getParameter(configuration, info.key);
     const auto [entry, is_new] = written_.emplace(info.key, text);
     if (!is_new && std::exchange(entry->second, text) == text) continue;
     writeParameter(private_handle_, info.key, info.type, text);
+  }
+}
+
+void ParameterMirror::deleteOldNames() {
+  for (const sks::OldSetting& old : sks::detectorTable().oldSettings()) {
+    const std::string name = withSlashes(old.key);
+    if (sks::detectorTable().find(old.key) == nullptr && private_handle_.hasParam(name)) {
+      private_handle_.deleteParam(name);
+    }
   }
 }
 

@@ -3,6 +3,9 @@
 
 #include <exception>
 #include <utility>
+#include <vector>
+
+#include <ros/console.h>
 
 #include "ros/reconfigure_messages.hpp"
 
@@ -27,7 +30,10 @@ bool Reconfigure::set(dynamic_reconfigure::Reconfigure::Request& request,
                       dynamic_reconfigure::Reconfigure::Response& response) {
   const std::lock_guard<std::mutex> lock(mutex_);
   try {
-    in_force_ = apply_(overlaid(in_force_, request.config));
+    std::vector<std::string> warnings;
+    const Configuration wanted = overlaid(in_force_, request.config, warnings);
+    for (const std::string& warning : warnings) ROS_WARN_STREAM("dynamic_reconfigure: " << warning);
+    in_force_ = apply_(wanted);
   } catch (const std::exception& error) {
     refused_(std::string("parameters are left as they were: ") + error.what());
   }

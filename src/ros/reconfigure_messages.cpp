@@ -134,12 +134,14 @@ Config toMessage(const Configuration& configuration) {
   return config;
 }
 
-Configuration overlaid(Configuration configuration, const Config& message) {
+Configuration overlaid(Configuration configuration, const Config& message, std::vector<std::string>& warnings) {
+  sks::SettingsOverlay overlay(bound(configuration));
   const auto set = [&](const std::string& key, const std::string& text) {
-    if (findParameter(key) && !isChangeable(key)) {
+    if (!isChangeable(key)) {
       throw sks::Error(sks::ErrorCode::bad_usage, "~" + key + " is only read when the node starts");
     }
-    setParameter(configuration, key, text);
+    const std::string warning = overlay.set(key, text);
+    if (!warning.empty()) warnings.push_back(warning);
   };
   for (const auto& value : message.bools) set(value.name, sks::toText(bool(value.value)));
   for (const auto& value : message.ints) set(value.name, sks::toText(int(value.value)));

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include <dynamic_reconfigure/Config.h>
 #include <dynamic_reconfigure/ConfigDescription.h>
 
@@ -15,7 +18,10 @@ dynamic_reconfigure::ConfigDescription parameterDescriptions();
 dynamic_reconfigure::Config toMessage(const Configuration& configuration);
 
 /// `configuration` with the values of a message.
-/// @throws sks::Error(bad_usage) for a name that is unknown or fixed while the node runs, or a value out of range
-Configuration overlaid(Configuration configuration, const dynamic_reconfigure::Config& message);
+/// @param warnings takes a message for each old name
+/// @throws sks::Error(bad_usage) for a name that is unknown, set twice or fixed while the node runs, or a value out of
+///         range
+Configuration overlaid(Configuration configuration, const dynamic_reconfigure::Config& message,
+                       std::vector<std::string>& warnings);
 
 }  // namespace sks_detector

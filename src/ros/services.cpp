@@ -18,17 +18,13 @@
 #include "ros/codebook_services.hpp"
 #include "ros/service_context.hpp"
 #include "ros/training_services.hpp"
+#include "ros/with_queue.hpp"
 
 namespace sks_detector {
 namespace {
 
 constexpr std::size_t longest_failure = 2000;  // bytes; it may quote a request, and goes to log and status
 constexpr int thread_count = 4;                // a training and two that wait for clouds leave one for ~cancel_training
-
-ros::NodeHandle withQueue(ros::NodeHandle handle, ros::CallbackQueue& queue) {
-  handle.setCallbackQueue(&queue);
-  return handle;
-}
 
 }  // namespace
 

@@ -64,13 +64,15 @@ void TrainingServices::work(const Train::Request& request, const sks::Progress& 
 
 sks::Settings TrainingServices::settingsOf(const Train::Request& request) const {
   sks::Settings settings = context_.slot.trainingSettings();
+  std::vector<std::string> warnings;
   for (const std::string& text : request.settings) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
       throw sks::Error(sks::ErrorCode::bad_usage, "settings: '" + text + "' is not of the form key=value");
     }
-    sks::setSetting(settings, text.substr(0, equals), text.substr(equals + 1));
+    sks::setSetting(settings, text.substr(0, equals), text.substr(equals + 1), &warnings);
   }
+  for (const std::string& warning : warnings) ROS_WARN_STREAM("settings of ~train: " << warning);
   const int wanted = sks::threadCount(settings), most = BackgroundJob::threads();
   settings.threads = std::min(wanted, most);
   sks::validate(settings);

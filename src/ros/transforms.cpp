@@ -18,10 +18,6 @@ constexpr std::uint32_t queue_size = 100;  // as tf2_ros has it
 
 }  // namespace
 
-std::string withoutSlash(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
-}
-
 Transforms::Transforms() {
   handle_.setCallbackQueue(&queue_);
 }

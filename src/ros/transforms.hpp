@@ -16,9 +16,6 @@
 
 namespace sks_detector {
 
-/// Frame names as tf2 has them: without the leading slash of tf.
-std::string withoutSlash(const std::string& frame);
-
 /// Transforms of tf2. Safe to use from several threads. Unlike tf2_ros::TransformListener it survives what others send:
 /// a stamp at the end of time, for example, makes tf2 throw.
 class Transforms {

@@ -7,6 +7,8 @@
 #include <sks_detector/error.hpp>
 #include <sks_detector/settings_file.hpp>
 
+#include "core/settings/detector_table.hpp"
+#include "core/settings/settings_overlay.hpp"
 #include "io/file.hpp"
 
 namespace sks::tools {
@@ -19,23 +21,24 @@ void SettingsOptions::add(CLI::App& command) {
 }
 
 void SettingsOptions::apply(Settings& settings, baselines::MethodSettings* own) const {
+  std::vector<std::string> warnings;
   if (!config_.empty() && own != nullptr) {
-    baselines::loadMethodSettings(config_, settings, *own);
+    baselines::loadMethodSettings(config_, settings, *own, &warnings);
   } else if (!config_.empty()) {
-    loadSettings(config_, settings);
+    loadSettings(config_, settings, &warnings);
   }
+  std::vector<BoundSettings> tables{detectorTable().bind(settings)};
+  if (own != nullptr) tables.push_back(baselines::methodTable().bind(*own));
   for (const std::string& set : sets_) {
     const std::size_t equals = set.find('=');
     if (equals == std::string::npos) {
       throw Error(ErrorCode::bad_usage, "--set " + set + ": expected key=value, e.g. --set keypoints.discard=0.5");
     }
-    const std::string key = set.substr(0, equals), value = set.substr(equals + 1);
-    if (own != nullptr && baselines::isMethodSetting(key)) {
-      setMethodSetting(*own, key, value);
-    } else {
-      setSetting(settings, key, value);
-    }
+    SettingsOverlay each(tables);  // the last one of a key is used
+    const std::string warning = each.set(set.substr(0, equals), set.substr(equals + 1));
+    if (!warning.empty()) warnings.push_back("--set " + set + ": " + warning);
   }
+  for (const std::string& warning : warnings) warn(warning);
   validate(settings);
 }
 

@@ -41,7 +41,7 @@ class SettingsOptions {
 public:
   void add(CLI::App& command);
 
-  /// Overlays the file, then each --set in its order, and validates the outcome.
+  /// Overlays the file, then each --set in its order, warns about old names, and validates the outcome.
   /// @param own takes what belongs to a method; where there is none, that is refused
   /// @throws Error(bad_usage), Error(bad_file)
   void apply(Settings& settings, baselines::MethodSettings* own = nullptr) const;

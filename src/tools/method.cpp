@@ -14,6 +14,7 @@ namespace sks::tools {
 namespace {
 
 using baselines::Method;
+using baselines::methodTable;
 
 void useWholeGrid(KeypointSettings& settings) {
   settings.detector = KeypointDetector::grid;
@@ -54,9 +55,9 @@ void MethodOption::applyBaseline(const std::string& preset, const SettingsOption
   baselines::loadMethodSettings(sharePath(preset), settings, own_);
   const baselines::MethodSettings before = own_;
   options.apply(settings, &own_);
-  for (const SettingInfo& info : baselines::methodSettingInfos()) {
+  for (const SettingInfo& info : methodTable().infos()) {
     if (reads(*baselines::findMethod(name_), info)) continue;
-    if (getMethodSetting(own_, info.key) == getMethodSetting(before, info.key)) continue;
+    if (methodTable().get(own_, info.key) == methodTable().get(before, info.key)) continue;
     throw Error(ErrorCode::bad_usage, "setting '" + info.key + "' has no effect on --method " + name_);
   }
 }
@@ -78,7 +79,7 @@ void MethodOption::applyForIsolatedObjects(const SettingsOptions& options, Setti
   }
   if (name_ == "sks-paper") {
     settings.keypoints.discard = 0.5;  // SKS-50
-    settings.verification.ambiguity = 1;
+    settings.matching.ambiguity = 1;
   }
   options.apply(settings);
   if (name_ == "grid") useWholeGrid(settings.keypoints);
@@ -102,9 +103,9 @@ ClassifyFunction MethodOption::classifyFunction(const std::shared_ptr<const Code
 
 void MethodOption::addSettings(nlohmann::json& settings) const {
   const Method* method = baselines::findMethod(name_);
-  for (const SettingInfo& info : baselines::methodSettingInfos()) {
+  for (const SettingInfo& info : methodTable().infos()) {
     if (method == nullptr || !reads(*method, info)) continue;
-    settings[info.key] = nlohmann::json::parse(getMethodSetting(own_, info.key));
+    settings[info.key] = nlohmann::json::parse(methodTable().get(own_, info.key));
   }
 }
 

@@ -18,10 +18,6 @@ struct Options {
   JsonOption json;
 };
 
-std::string rangeText(const SettingInfo& info) {
-  return allowedValues(info) + (info.unit.empty() ? "" : " [" + info.unit + "]");
-}
-
 std::string helpText(const SettingInfo& info) {
   return info.help + (info.binding == Binding::codebook ? " (fixed by the codebook)" : "");
 }
@@ -29,7 +25,7 @@ std::string helpText(const SettingInfo& info) {
 std::string tableOf(const Settings& settings) {
   Table table({"<setting", "<value", "<range", "<meaning"});
   for (const SettingInfo& info : settingInfos()) {
-    table.add({info.key, getSetting(settings, info.key), rangeText(info), helpText(info)});
+    table.add({info.key, getSetting(settings, info.key), allowedValues(info), helpText(info)});
   }
   return table.text();
 }
@@ -37,7 +33,7 @@ std::string tableOf(const Settings& settings) {
 std::string markdownOf(const Settings& settings) {
   std::string text = "| setting | value | range | meaning |\n| --- | --- | --- | --- |\n";
   for (const SettingInfo& info : settingInfos()) {
-    text += "| `" + info.key + "` | " + getSetting(settings, info.key) + " | " + rangeText(info) + " | " +
+    text += "| `" + info.key + "` | " + getSetting(settings, info.key) + " | " + allowedValues(info) + " | " +
             helpText(info) + " |\n";
   }
   return text;

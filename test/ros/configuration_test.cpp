@@ -18,17 +18,20 @@ using sks::test::errorOf;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
+void setParameter(Configuration& configuration, const std::string& key, const std::string& text) {
+  sks::SettingsOverlay(bound(configuration)).set(key, text);
+}
+
 TEST(Configuration, HasEachParameterOnceWithHelpAndUnit) {
   std::set<std::string> keys;
   for (const sks::SettingInfo& info : parameterInfos()) {
     EXPECT_TRUE(keys.insert(info.key).second) << info.key;
     EXPECT_FALSE(info.help.empty()) << info.key;
-    EXPECT_EQ(findParameter(info.key), &info);
   }
   EXPECT_EQ(keys.count("target_frame"), 1U);
   EXPECT_EQ(keys.count("keypoints.discard"), 1U);
-  EXPECT_EQ(findParameter("tf_timeout")->unit, "s");
-  EXPECT_EQ(findParameter("nothing"), nullptr);
+  EXPECT_EQ(nodeTable().at("tf_timeout").unit, "s");
+  EXPECT_EQ(nodeTable().find("nothing"), nullptr);
 }
 
 TEST(Configuration, TakesBackWhatItGives) {
@@ -70,9 +73,11 @@ TEST(Configuration, RefusesWrongValuesAndKeepsTheOld) {
 }
 
 TEST(Configuration, FindsTheNearestNameAlsoInAnotherGroup) {
-  EXPECT_EQ(nearestParameter("keypoints.discrad"), "keypoints.discard");
-  EXPECT_EQ(nearestParameter("descriptor.grid_size"), "keypoints.grid_size");
-  EXPECT_EQ(nearestParameter("always_one"), "always_on");
+  Configuration configuration;
+  const sks::SettingsOverlay overlay(bound(configuration));
+  EXPECT_EQ(overlay.nearest("keypoints.discrad"), "keypoints.discard");
+  EXPECT_EQ(overlay.nearest("descriptor.grid_size"), "keypoints.grid_size");
+  EXPECT_EQ(overlay.nearest("always_one"), "always_on");
 }
 
 TEST(Configuration, KnowsWhatCanBeChangedWhileTheNodeRuns) {

@@ -30,7 +30,7 @@ Classifier::Classifier(std::shared_ptr<const Codebook> codebook, const Settings&
       strength_(voteStrengths(*codebook_, balance)) {}
 
 Classification Classifier::classify(const Cloud& cloud, ViewKind kind) const {
-  const double ambiguity = settings_.verification.ambiguity;
+  const double ambiguity = settings_.matching.ambiguity;
   const auto match = [&](const DescriptorMatrix& d, int threads) { return matcher_.match(d, ambiguity, threads); };
   const auto strengths = [&](const SceneDescription& scene) {
     const auto maxima = findAllMaxima(scene.votes, settings_, threadCount(settings_));

@@ -69,8 +69,8 @@ DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) con
   DetectionResult result;
   StageTimes& times = result.times;
   Stopwatch total;
-  const bool verifies = settings_.verification.candidates > 0;
-  const double ambiguity = verifies ? settings_.verification.ambiguity : 1.0;
+  const bool verifies = settings_.detection.hypotheses == Hypotheses::verified;
+  const double ambiguity = verifies ? settings_.matching.ambiguity : 1.0;
   const auto match = [&](const DescriptorMatrix& d, int n) { return matcher_->match(d, ambiguity, n); };
   SceneDescription scene;
   scene.surface = prepareScene(cloud, Orientation::sensor, *codebook_, settings_, times, result.counts);
@@ -79,7 +79,7 @@ DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) con
   std::optional<SceneView> view;
   KeypointFilter filter;
   if (verifies) view.emplace(scene.surface, settings_, threads);
-  if (verifies && settings_.verification.skip_planes) {
+  if (verifies && settings_.keypoints.skip_planes) {
     filter = [&](const Keypoints& k) { return keypointsOffPlanes(k, view->planes, verifier_->largestExtent()); };
   }
   times.verification = stage.lap();

@@ -29,6 +29,10 @@ std::string toText(bool value) {
   return value ? "true" : "false";
 }
 
+std::string toText(const std::string& value) {
+  return value;
+}
+
 bool fromText(const std::string& text, double& value) {
   std::istringstream in(text);
   in.imbue(std::locale::classic());
@@ -46,9 +50,17 @@ bool fromText(const std::string& text, bool& value) {
   return value || text == "false";
 }
 
+bool fromText(const std::string& text, std::string& value) {
+  value = text;
+  return true;
+}
+
 std::string allowedValues(const SettingInfo& info) {
   if (info.type == "bool") return "true, false";
-  if (info.type != "choice") return toText(info.range.min) + " to " + toText(info.range.max);
+  if (info.type == "string") return "any text";
+  if (info.type != "choice") {
+    return toText(info.range.min) + " to " + toText(info.range.max) + (info.unit.empty() ? "" : " [" + info.unit + "]");
+  }
   std::string list;
   for (const std::string& choice : info.choices) list += (list.empty() ? "" : ", ") + choice;
   return list;

@@ -14,6 +14,7 @@ namespace sks {
 std::string toText(double value);
 std::string toText(int value);
 std::string toText(bool value);
+std::string toText(const std::string& value);
 
 template <typename Enum, typename = std::enable_if_t<std::is_enum_v<Enum>>>
 std::string toText(Enum value) {
@@ -24,6 +25,7 @@ std::string toText(Enum value) {
 bool fromText(const std::string& text, double& value);
 bool fromText(const std::string& text, int& value);
 bool fromText(const std::string& text, bool& value);
+bool fromText(const std::string& text, std::string& value);
 
 template <typename Enum, typename = std::enable_if_t<std::is_enum_v<Enum>>>
 bool fromText(const std::string& text, Enum& value) {
@@ -33,7 +35,7 @@ bool fromText(const std::string& text, Enum& value) {
   return found != names.end();
 }
 
-/// What a setting may be: "0 to 0.99", "auto, shot, cshot" or "true, false".
+/// What a setting may be: "0.001 to 0.5 [m]", "auto, shot, cshot", "true, false" or "any text".
 std::string allowedValues(const SettingInfo& info);
 
 }  // namespace sks

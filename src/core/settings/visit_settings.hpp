@@ -46,10 +46,11 @@ private:
   std::string prefix_;
 };
 
-/// Calls `f(key, value, about)` for each setting, in the order of the stages; `value` is a reference into `settings`.
-template <typename SettingsType, typename Function>
-void forEachSetting(SettingsType& settings, Function function) {
-  Settings::visit(settings, Flatten<Function>(function));
+/// Calls `f(key, value, about)` for each setting of a struct with a visit() function, in its order; `value` is a
+/// reference into `settings`.
+template <typename T, typename Function>
+void forEachSetting(T& settings, Function function) {
+  std::remove_const_t<T>::visit(settings, Flatten<Function>(function));
 }
 
 }  // namespace sks

@@ -11,7 +11,7 @@ constexpr double steepness = 8;  // of the logistic function, fitted to simulate
 }  // namespace
 
 double score(const Hypothesis& hypothesis, const Settings& settings) {
-  if (settings.verification.candidates == 0) {
+  if (settings.detection.hypotheses == Hypotheses::hough) {
     return hypothesis.density / (hypothesis.density + settings.detection.half_density);
   }
   const double power = std::pow(hypothesis.evidence / settings.verification.half_evidence, steepness);

@@ -1,29 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/camera/camera_parameters.hpp"
 
-#include <sks_detector/error.hpp>
-
-#include "ros/own_settings.hpp"
 #include "ros/parameter_tree.hpp"
 
 namespace sks_detector {
 
+const sks::SettingsTable<CameraSettings>& cameraTable() {
+  static const sks::SettingsTable<CameraSettings> table;
+  return table;
+}
+
 CameraParameters readCameraParameters(const ros::NodeHandle& private_handle) {
+  return readCameraParameters(readParameterTree(private_handle), private_handle.getNamespace());
+}
+
+CameraParameters readCameraParameters(const XmlRpc::XmlRpcValue& tree, const std::string& name_space) {
   CameraParameters result;
-  const auto& infos = ownSettingInfos<CameraSettings>();
-  const auto is_parameter = [&](const std::string& key) { return findInfo(infos, key) != nullptr; };
-  for (const auto& [key, text] : readParameterTree(private_handle, is_parameter)) {
-    const sks::SettingInfo* info = findInfo(infos, key);
-    if (!info) {
-      result.problems.push_back(unknownParameter(private_handle, key, nearestKey(infos, key)));
-      continue;
-    }
-    try {
-      setOwnSetting(result.settings, *info, text);
-    } catch (const sks::Error& error) {
-      result.problems.push_back("parameter " + parameterName(private_handle, key) + ": " + error.what() +
-                                "; the default is used");
-    }
+  sks::SettingsOverlay overlay({cameraTable().bind(result.settings)});
+  const TreeReading reading = overlayParameters(tree, name_space, overlay);
+  result.problems = reading.warnings;
+  for (const TreeReading::Refused& refused : reading.refused) {
+    const std::string used = overlay.get(refused.key);
+    const bool is_default = used == cameraTable().at(refused.key).default_value;
+    result.problems.push_back(refused.message + "; " + (is_default ? "the default" : used) + " is used");
   }
   return result;
 }

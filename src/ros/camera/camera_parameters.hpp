@@ -4,11 +4,15 @@
 #include <string>
 #include <vector>
 
+#include <XmlRpcValue.h>
 #include <ros/node_handle.h>
 
+#include "core/settings/settings_table.hpp"
 #include "ros/camera/camera_settings.hpp"
 
 namespace sks_detector {
+
+const sks::SettingsTable<CameraSettings>& cameraTable();
 
 /// What the camera's private parameters say.
 struct CameraParameters {
@@ -17,5 +21,7 @@ struct CameraParameters {
 };
 
 CameraParameters readCameraParameters(const ros::NodeHandle& private_handle);
+/// The same from a tree of maps. @param name_space of the tree, for messages
+CameraParameters readCameraParameters(const XmlRpc::XmlRpcValue& tree, const std::string& name_space);
 
 }  // namespace sks_detector

@@ -40,15 +40,19 @@ struct CameraSettings {
     v(s.sync, "sync", "let the device take depth and colour at the same time where it can");
     v(s.loop, "loop", "play an .oni file again and again, not once");
     v(s.focal_length, "focal_length", Range{0, 100000}, "px",
-      "of the depth image at the size that is published; 0: from the device's field of view");
-    v(s.center_x, "center_x", Range{0, 10000}, "px", "column of the optical axis; 0: the middle of the image");
-    v(s.center_y, "center_y", Range{0, 10000}, "px", "row of the optical axis; 0: the middle of the image");
+      "focal length of the depth image at the size that is published; 0: computed from the device's field of view");
+    v(s.center_x, "center_x", Range{0, 10000}, "px",
+      "column of the depth image that the optical axis meets; 0: the middle");
+    v(s.center_y, "center_y", Range{0, 10000}, "px",
+      "row of the depth image that the optical axis meets; 0: the middle");
     v(s.frame_id, "frame_id", "frame of all messages: optical, that is z forward, x right, y down");
-    v(s.always_on, "always_on", "let the camera run even while nobody listens");
+    v(s.always_on, "always_on", "let the camera run also while nobody has subscribed to its images");
     v(s.frame_timeout, "frame_timeout", Range{0.1, 3600}, "s",
-      "a camera that gives no frame for so long is taken as gone");
-    v(s.retry_delay, "retry_delay", Range{0.01, 3600}, "s", "pause before the first attempt to open it again");
-    v(s.max_retry_delay, "max_retry_delay", Range{0.01, 3600}, "s", "the pause doubles up to this");
+      "a camera that gives no frame for this time is taken as gone and opened again");
+    v(s.retry_delay, "retry_delay", Range{0.01, 3600}, "s",
+      "pause before the first attempt to open a camera that is gone; it doubles with each further attempt");
+    v(s.max_retry_delay, "max_retry_delay", Range{0.01, 3600}, "s",
+      "longest pause between two attempts to open a camera that is gone");
   }
 };
 

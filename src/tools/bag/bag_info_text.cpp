@@ -4,11 +4,14 @@
 #include <map>
 #include <set>
 
+#include "ros/frame_name.hpp"
 #include "tools/bag/stamps.hpp"
 #include "tools/table.hpp"
 
 namespace sks::tools {
 namespace {
+
+using sks_detector::withoutSlash;
 
 using nlohmann::json;
 

@@ -8,8 +8,12 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sks_detector/DetectionArray.h>
 
+#include "ros/frame_name.hpp"
+
 namespace sks::tools {
 namespace {
+
+using sks_detector::withoutSlash;
 
 CloudCheck checkClouds(const BagFile& bag, const BagTopic& topic, const Progress& progress) {
   CloudCheck check(topic.name);

@@ -7,9 +7,12 @@
 
 #include "core/surface/sanitize.hpp"
 #include "ros/cloud_message.hpp"
+#include "ros/frame_name.hpp"
 
 namespace sks::tools {
 namespace {
+
+using sks_detector::withoutSlash;
 
 std::string fieldNames(const sensor_msgs::PointCloud2& message) {
   std::string names;

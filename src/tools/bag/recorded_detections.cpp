@@ -6,11 +6,13 @@
 #include <sks_detector/DetectionArray.h>
 
 #include "ros/detection_message.hpp"
-#include "tools/bag/remarks.hpp"
+#include "ros/frame_name.hpp"
 #include "tools/bag/stamps.hpp"
 
 namespace sks::tools {
 namespace {
+
+using sks_detector::withoutSlash;
 
 constexpr char array_type[] = "sks_detector/DetectionArray";
 constexpr char cloud_type[] = "sensor_msgs/PointCloud2";

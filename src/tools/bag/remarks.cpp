@@ -7,10 +7,6 @@ std::string severityName(Severity severity) {
   return severity == Severity::error ? "error" : (severity == Severity::warning ? "warning" : "note");
 }
 
-std::string withoutSlash(const std::string& name) {
-  return !name.empty() && name[0] == '/' ? name.substr(1) : name;
-}
-
 std::string shareText(std::size_t part, std::size_t all, const std::string& things) {
   return std::to_string(part) + " of " + std::to_string(all) + " " + things;
 }

@@ -25,9 +25,6 @@ using Remarks = std::vector<Remark>;
 /// "note", "warning" or "error".
 std::string severityName(Severity severity);
 
-/// `name` without the leading slash that frames had before tf2.
-std::string withoutSlash(const std::string& name);
-
 /// "3 of 20 clouds".
 std::string shareText(std::size_t part, std::size_t all, const std::string& things);
 

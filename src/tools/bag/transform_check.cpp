@@ -3,8 +3,12 @@
 
 #include <algorithm>
 
+#include "ros/frame_name.hpp"
+
 namespace sks::tools {
 namespace {
+
+using sks_detector::withoutSlash;
 
 constexpr char topic_name[] = "/tf";
 

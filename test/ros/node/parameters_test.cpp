@@ -74,6 +74,21 @@ TEST_F(ParametersTest, UnknownOnesAreWarnedAbout) {
               ElementsAre("unknown parameter " + name + "discrad is ignored: did you mean " + name + "discard?"));
 }
 
+TEST_F(ParametersTest, OldNamesAreReplacedByTheMirror) {
+  handle_.setParam("verification/ambiguity", 1.5);
+  handle_.setParam("verification/candidates", 0);
+  const ParameterReading reading = readParameters(handle_);
+  EXPECT_THAT(reading.given, UnorderedElementsAre("detection.hypotheses", "matching.ambiguity"));
+  EXPECT_EQ(reading.warnings.size(), 2U);
+  ParameterMirror(handle_).write(reading.configuration);
+  EXPECT_FALSE(handle_.hasParam("verification/ambiguity"));
+  const ParameterReading again = readParameters(handle_);  // as when the node starts once more
+  EXPECT_THAT(again.errors, IsEmpty());
+  EXPECT_THAT(again.warnings, IsEmpty());
+  EXPECT_EQ(again.configuration.detector.matching.ambiguity, 1.5);
+  EXPECT_EQ(again.configuration.detector.detection.hypotheses, sks::Hypotheses::hough);
+}
+
 TEST_F(ParametersTest, MirrorWritesWhatIsInForceAndThenWhatChanges) {
   ParameterMirror mirror(handle_);
   Configuration configuration;
