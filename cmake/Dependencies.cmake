@@ -4,13 +4,20 @@
 # it is not installed; for everything else a message names the apt package.
 include(FetchContent)
 
+# Stops where one of the variables says that nothing was found, and names the apt packages.
+function(sks_need_library name apt_packages)
+  foreach(variable ${ARGN})
+    if(NOT ${variable})
+      message(FATAL_ERROR "${PROJECT_NAME} needs ${name}: install it with `apt-get install ${apt_packages}`, or run "
+        "scripts/install_dependencies.")
+    endif()
+  endforeach()
+endfunction()
+
 # find_package() that names the apt package where nothing is found.
 macro(sks_find_package name apt_package)
   find_package(${name} QUIET ${ARGN})
-  if(NOT ${name}_FOUND)
-    message(FATAL_ERROR
-      "${PROJECT_NAME} needs ${name}: install it with `apt-get install ${apt_package}`, or run scripts/install_dependencies.")
-  endif()
+  sks_need_library(${name} ${apt_package} ${name}_FOUND)
 endmacro()
 
 # Adds a library to this build from source, linked statically.
@@ -24,19 +31,17 @@ function(sks_fetch name repository tag)
 endfunction()
 
 sks_find_package(Eigen3 libeigen3-dev)
-sks_find_package(PCL libpcl-dev COMPONENTS common io search kdtree features keypoints
-  sample_consensus segmentation filters registration recognition)
 sks_find_package(OpenMP libgomp1 COMPONENTS CXX)
 sks_find_package(yaml-cpp libyaml-cpp-dev)
 sks_find_package(nlohmann_json nlohmann-json3-dev)
 
+sks_find_package(PNG libpng-dev)
+sks_find_package(JPEG libjpeg-dev)
+
 # The generated code needs only headers of FlatBuffers, whose CMake package has a different name in every release.
 find_path(FLATBUFFERS_INCLUDE_DIR flatbuffers/flatbuffers.h)
 find_program(FLATC_EXECUTABLE flatc)
-if(NOT FLATBUFFERS_INCLUDE_DIR OR NOT FLATC_EXECUTABLE)
-  message(FATAL_ERROR "${PROJECT_NAME} needs FlatBuffers: install it with `apt-get install libflatbuffers-dev "
-    "flatbuffers-compiler`, or run scripts/install_dependencies.")
-endif()
+sks_need_library(FlatBuffers "libflatbuffers-dev flatbuffers-compiler" FLATBUFFERS_INCLUDE_DIR FLATC_EXECUTABLE)
 
 find_package(hwy CONFIG QUIET)
 if(hwy_FOUND)
@@ -50,9 +55,15 @@ else()
   sks_fetch(hwy https://github.com/google/highway.git 1.0.3)
 endif()
 
-if(SKS_BUILD_TOOLS OR SKS_BUILD_SIMULATION)
-  sks_find_package(OpenCV libopencv-dev COMPONENTS core imgproc imgcodecs)
-endif()
+# Neither assimp nor Embree has a CMake package that works in all releases.
+find_path(ASSIMP_INCLUDE_DIR assimp/scene.h)
+find_library(ASSIMP_LIBRARY assimp)
+find_path(EMBREE_INCLUDE_DIR embree3/rtcore.h)
+find_library(EMBREE_LIBRARY embree3)
+sks_need_library(assimp libassimp-dev ASSIMP_INCLUDE_DIR ASSIMP_LIBRARY)
+sks_need_library("Embree 3" libembree-dev EMBREE_INCLUDE_DIR EMBREE_LIBRARY)
+sks_find_package(Bullet libbullet-dev MODULE)
+
 if(SKS_BUILD_TOOLS)
   find_package(CLI11 CONFIG QUIET)
   if(NOT CLI11_FOUND)

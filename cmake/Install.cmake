@@ -4,16 +4,10 @@
 # catkin_package() writes the package's configuration file in a catkin build; the targets are then its extra file's.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS ${PROJECT_NAME}_core EXPORT ${PROJECT_NAME}Targets
+install(TARGETS ${PROJECT_NAME}_core ${PROJECT_NAME}_simulation EXPORT ${PROJECT_NAME}Targets
   ARCHIVE DESTINATION ${sks_lib_dir}
   LIBRARY DESTINATION ${sks_lib_dir}
   RUNTIME DESTINATION ${sks_bin_dir})
-if(sks_simulation)
-  install(TARGETS ${PROJECT_NAME}_simulation EXPORT ${PROJECT_NAME}Targets
-    ARCHIVE DESTINATION ${sks_lib_dir}
-    LIBRARY DESTINATION ${sks_lib_dir}
-    RUNTIME DESTINATION ${sks_bin_dir})
-endif()
 if(TARGET sks)
   install(TARGETS sks RUNTIME DESTINATION ${sks_bin_dir})
 endif()

@@ -3,11 +3,6 @@
 # The nodelets, thin shells around the core, and the same as executables. The camera is built where OpenNI2 is found;
 # sets sks_camera to whether it is.
 file(GLOB ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
-if(sks_simulation)
-  list(APPEND ros_sources src/ros/simulation/mesh_sampler.cpp)
-else()
-  list(APPEND ros_sources src/ros/without_simulation/mesh_sampler.cpp)
-endif()
 file(GLOB nodelet_sources CONFIGURE_DEPENDS src/ros/nodelets/*.cpp)
 file(GLOB camera_sources CONFIGURE_DEPENDS src/ros/camera/*.cpp)
 file(GLOB ros_executables CONFIGURE_DEPENDS src/ros/executables/*.cpp)
@@ -30,10 +25,8 @@ target_include_directories(${PROJECT_NAME}_ros PUBLIC src)
 #catkin_lint: ignore_once external_directory external_interface_path
 target_include_directories(${PROJECT_NAME}_ros SYSTEM PUBLIC
   ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
-target_link_libraries(${PROJECT_NAME}_ros PUBLIC sks_build_flags ${PROJECT_NAME}_core ${catkin_LIBRARIES})
-if(sks_simulation)
-  target_link_libraries(${PROJECT_NAME}_ros PUBLIC ${PROJECT_NAME}_simulation)
-endif()
+target_link_libraries(${PROJECT_NAME}_ros PUBLIC sks_build_flags ${PROJECT_NAME}_core ${PROJECT_NAME}_simulation
+  ${catkin_LIBRARIES})
 sks_precompile(${PROJECT_NAME}_ros <ros/node_handle.h> <sensor_msgs/PointCloud2.h>)
 set(sks_ros_libraries ${PROJECT_NAME}_ros)
 

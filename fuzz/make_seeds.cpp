@@ -10,6 +10,7 @@
 #include <sks_detector/settings_file.hpp>
 
 #include "io/file.hpp"
+#include "io/image_file.hpp"
 #include "seed_texts.hpp"
 #include "small_codebook.hpp"
 #if __has_include(<sensor_msgs/PointCloud2.h>)
@@ -48,6 +49,15 @@ void clouds(const std::string& folder) {
   mesh.add("ply", "\x01" + sks::fuzz::ascii_ply);
   mesh.add("obj", std::string(1, '\0') + sks::fuzz::obj);
   mesh.add("stl", "\x02" + sks::fuzz::stl);
+}
+
+void images(const std::string& folder) {
+  const Corpus corpus(folder, "image");
+  sks::ColorImage color(9, 5, {200, 100, 50});
+  color(2, 3) = {0, 255, 0};
+  corpus.add("color", sks::encodePng(color));
+  corpus.add("depth", sks::encodePng(sks::DepthImage(9, 5, 1000)));
+  corpus.add("jpeg", sks::encodeJpeg(color));
 }
 
 void codebooks(const std::string& folder) {
@@ -109,6 +119,7 @@ int main(int count, char** arguments) {
     return 2;
   }
   const std::string folder = arguments[1];
+  images(folder);
   clouds(folder);
   codebooks(folder);
   texts(folder);

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include <gmock/gmock.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include <sks_detector/cloud_io.hpp>
 
 #include "import_fixture.hpp"
+#include "io/image_file.hpp"
 
 namespace sks {
 namespace {
@@ -92,11 +92,11 @@ protected:
     write("test/000002/scene_camera.json", R"({"3": {"cam_K": [100, 0, 2, 0, 200, 1, 0, 0, 1], "depth_scale": 0.1}})");
     writeTruth("[0, -1, 0, 1, 0, 0, 0, 0, 1]");
     write("test/000002/scene_gt_info.json", R"({"3": [{"visib_fract": 0.75}, {"visib_fract": 0.02}]})");
-    cv::Mat1w depth(3, 4, std::uint16_t(0));
+    DepthImage depth(4, 3);
     depth(1, 2) = 8000;
     depth(2, 3) = 10000;
-    cv::imwrite(place("test/000002/depth/000003.png"), depth);
-    cv::imwrite(place("test/000002/rgb/000003.png"), cv::Mat3b(3, 4, cv::Vec3b(10, 20, 30)));
+    write("test/000002/depth/000003.png", encodePng(depth));
+    write("test/000002/rgb/000003.png", encodePng(ColorImage(4, 3, {30, 20, 10})));
   }
   void writeTruth(const std::string& rotation) const {
     write("test/000002/scene_gt.json",
@@ -152,8 +152,8 @@ TEST_F(ImportBop, NamesWhatIsWrong) {
   EXPECT_THAT(refusal("bop"), HasSubstr("scene_gt.json: image 3, object 0, cam_R_m2c: must be a list of 9 numbers"));
   writeTruth("[1, 0, 0, 0, 1, 0, 0, 0, 1]");
   EXPECT_THAT(refusal("bop", {"--split", "val"}), HasSubstr("has no folder val with scenes; there is test"));
-  cv::imwrite(place("test/000002/depth/000003.png"), cv::Mat1b(3, 4, std::uint8_t(7)));
-  EXPECT_THAT(refusal("bop"), HasSubstr("000003.png: a depth image must have one channel of 16 bits"));
+  write("test/000002/depth/000003.png", encodePng(ColorImage(4, 3)));
+  EXPECT_THAT(refusal("bop"), HasSubstr("000003.png': a depth image must have one channel of 16 bits"));
   std::filesystem::remove(place("test/000002/depth/000003.png"));
   EXPECT_THAT(refusal("bop"), HasSubstr("cannot read the depth image"));
   write("test/000002/scene_camera.json", R"({"3": {"cam_K": [1, 0, 0, 0, 1, 0, 0, 0, 1]}})");

@@ -2,13 +2,10 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <pcl/features/normal_3d.h>
-#include <pcl/search/kdtree.h>
 
 #include <sks_detector/stages/surface.hpp>
 
 #include "bumps.hpp"
-#include "pcl_clouds.hpp"
 #include "synthetic.hpp"
 
 namespace {
@@ -115,33 +112,6 @@ TEST(Normals, NeedEnoughNeighbors) {
       EXPECT_EQ(std::isnan(surface.ny[i]), few);
       EXPECT_EQ(std::isnan(surface.nz[i]), few);
     }
-  }
-}
-
-TEST(Normals, EqualThoseOfPcl) {
-  using sks::test::Placed;
-  const sks::Cloud seen =
-      sks::test::view({Placed{sks::test::roundedShape(), sks::test::poseOf(20, {1, 1, 0}, {0, 0, 0.7f})}});
-  sks::Cloud object;
-  for (const auto& p : seen.points) {
-    if (p.allFinite()) object.points.push_back(p);
-  }
-  for (const sks::Cloud& cloud : {sks::test::bumps(), object}) {
-    const sks::Surface surface = prepare(cloud, 0.01);
-    pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
-    estimation.setInputCloud(sks::test::pclPoints(surface.positions()));
-    estimation.setSearchMethod(pcl::search::KdTree<pcl::PointXYZ>::Ptr(new pcl::search::KdTree<pcl::PointXYZ>));
-    estimation.setRadiusSearch(0.01);
-    estimation.setViewPoint(0, 0, 0);
-    pcl::PointCloud<pcl::Normal> expected;
-    estimation.compute(expected);
-    std::size_t compared = 0;
-    for (std::size_t i = 0; i < surface.size(); ++i) {
-      if (!surface.normal(i).allFinite()) continue;
-      ++compared;
-      EXPECT_LT(angle(surface.normal(i), expected[i].getNormalVector3fMap()), 0.5) << surface.point(i).transpose();
-    }
-    EXPECT_GT(compared, surface.size() * 9 / 10);
   }
 }
 

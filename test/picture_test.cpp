@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #ifdef SKS_EXECUTABLE  // not where the command line is left out of the build
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "bumps.hpp"
 #include "error_of.hpp"
 #include "io/file.hpp"
+#include "io/image_file.hpp"
 #include "temporary_folder.hpp"
 #include "tools/point_image.hpp"
 #include "tools/render.hpp"
@@ -37,48 +38,48 @@ void append(Cloud& cloud, const Cloud& other) {
   cloud.width = std::uint32_t(cloud.points.size());
 }
 
-cv::Vec3b at(const cv::Mat& image, const cv::Point2d& pixel) {
-  return image.at<cv::Vec3b>(int(std::lround(pixel.y)), int(std::lround(pixel.x)));
+Rgb at(const ColorImage& image, const Eigen::Vector2d& pixel) {
+  return image(int(std::lround(pixel.y())), int(std::lround(pixel.x())));
 }
 
-std::size_t count(const cv::Mat& image, Rgb color) {
-  const cv::Vec3b wanted(color.b, color.g, color.r);
-  std::size_t found = 0;
-  for (int row = 0; row < image.rows; ++row) {
-    for (int column = 0; column < image.cols; ++column) found += image.at<cv::Vec3b>(row, column) == wanted;
-  }
-  return found;
+bool same(const Rgb& a, const Rgb& b) {
+  return a.r == b.r && a.g == b.g && a.b == b.b;
 }
 
-cv::Mat saved(const Picture& picture) {
+std::size_t count(const ColorImage& image, Rgb color) {
+  return std::size_t(
+      std::count_if(image.pixels.begin(), image.pixels.end(), [&](const Rgb& pixel) { return same(pixel, color); }));
+}
+
+ColorImage saved(const Picture& picture) {
   const test::TemporaryFolder folder;
   picture.save(folder.path("p.png"));
-  return cv::imread(folder.path("p.png"));
+  return readColorImage(folder.path("p.png"));
 }
 
 }  // namespace
 
 TEST(ViewCamera, LooksFromTheSensorAndFitsThePoints) {
-  const cv::Size size(400, 300);
+  const PictureSize size{400, 300};
   const ViewCamera camera(square(1, magenta), size);
   EXPECT_TRUE(camera.toCamera({0.1, 0.05, 1}).isApprox(Eigen::Vector3d(0.1, 0.05, 1)));
-  const cv::Point2d low = camera.pixel(camera.toCamera({-0.2, -0.2, 1}));
-  const cv::Point2d high = camera.pixel(camera.toCamera({0.2, 0.2, 1}));
-  EXPECT_NEAR(0.5 * (low.x + high.x), 200, 3);
-  EXPECT_NEAR(0.5 * (low.y + high.y), 150, 3);
-  EXPECT_NEAR(high.y - low.y, 0.94 * 300, 6);
-  EXPECT_NEAR(high.x - low.x, high.y - low.y, 6);
-  EXPECT_TRUE(camera.ray(low.x, low.y).isApprox(Eigen::Vector3d(-0.2, -0.2, 1), 1e-6));
+  const Eigen::Vector2d low = camera.pixel(camera.toCamera({-0.2, -0.2, 1}));
+  const Eigen::Vector2d high = camera.pixel(camera.toCamera({0.2, 0.2, 1}));
+  EXPECT_NEAR(0.5 * (low.x() + high.x()), 200, 3);
+  EXPECT_NEAR(0.5 * (low.y() + high.y()), 150, 3);
+  EXPECT_NEAR(high.y() - low.y(), 0.94 * 300, 6);
+  EXPECT_NEAR(high.x() - low.x(), high.y() - low.y(), 6);
+  EXPECT_TRUE(camera.ray(low.x(), low.y()).isApprox(Eigen::Vector3d(-0.2, -0.2, 1), 1e-6));
 }
 
 TEST(ViewCamera, FollowsTheConventionOfTheCloud) {
   // Camera that looks along -z: x right, y up.
   const ViewCamera graphics(square(-1, magenta), {400, 300});
-  const cv::Point2d up = graphics.pixel(graphics.toCamera({0, 0.1, -1}));
-  const cv::Point2d right = graphics.pixel(graphics.toCamera({0.1, 0, -1}));
-  const cv::Point2d middle = graphics.pixel(graphics.toCamera({0, 0, -1}));
-  EXPECT_LT(up.y, middle.y - 10);
-  EXPECT_GT(right.x, middle.x + 10);
+  const Eigen::Vector2d up = graphics.pixel(graphics.toCamera({0, 0.1, -1}));
+  const Eigen::Vector2d right = graphics.pixel(graphics.toCamera({0.1, 0, -1}));
+  const Eigen::Vector2d middle = graphics.pixel(graphics.toCamera({0, 0, -1}));
+  EXPECT_LT(up.y(), middle.y() - 10);
+  EXPECT_GT(right.x(), middle.x() + 10);
 
   // Sensor elsewhere, looking along -x.
   Cloud cloud = square(0, magenta);
@@ -97,10 +98,10 @@ TEST(PointImage, NearPointsHideFarOnes) {
   const Rgb red{200, 10, 10}, green{10, 200, 10};
   Cloud cloud = square(1, red);
   append(cloud, square(1.5f, green));
-  const cv::Size size(400, 300);
+  const PictureSize size{400, 300};
   const ViewCamera camera(cloud, size);
-  const cv::Mat image = renderPoints(cloud, camera, size);
-  EXPECT_EQ(at(image, camera.pixel(camera.toCamera({0, 0, 1.5}))), cv::Vec3b(red.b, red.g, red.r));
+  const ColorImage image = renderPoints(cloud, camera, size);
+  EXPECT_TRUE(same(at(image, camera.pixel(camera.toCamera({0, 0, 1.5}))), red));
   EXPECT_EQ(count(image, green), 0u);
   EXPECT_GT(count(image, red), 70000u);  // no holes
 }
@@ -111,12 +112,12 @@ TEST(PointImage, WithoutColourSlopesAreDarker) {
     for (float y = -0.2f; y <= 0.2f; y += 0.002f) cloud.points.emplace_back(x, y, x < 0 ? 1.0f : 1.0f + 2 * x);
   }
   cloud.width = std::uint32_t(cloud.points.size());
-  const cv::Size size(400, 300);
+  const PictureSize size{400, 300};
   const ViewCamera camera(cloud, size);
-  const cv::Mat image = renderPoints(cloud, camera, size);
-  const cv::Vec3b flat = at(image, camera.pixel(camera.toCamera({-0.1, 0, 1})));
-  const cv::Vec3b slope = at(image, camera.pixel(camera.toCamera({0.05, 0, 1.1})));
-  EXPECT_GT(flat[1], slope[1] + 30);
+  const ColorImage image = renderPoints(cloud, camera, size);
+  const Rgb flat = at(image, camera.pixel(camera.toCamera({-0.1, 0, 1})));
+  const Rgb slope = at(image, camera.pixel(camera.toCamera({0.05, 0, 1.1})));
+  EXPECT_GT(flat.g, slope.g + 30);
 }
 
 TEST(PointImage, CloudsWithoutAPointGiveTheBackground) {
@@ -124,8 +125,8 @@ TEST(PointImage, CloudsWithoutAPointGiveTheBackground) {
   cloud.points.emplace_back(std::nanf(""), 0, 0);
   cloud.width = 1;
   for (const Cloud& each : {Cloud(), cloud}) {
-    const cv::Mat image = renderPoints(each, ViewCamera(each, {40, 30}), {40, 30});
-    EXPECT_EQ(image.at<cv::Vec3b>(15, 20), image.at<cv::Vec3b>(0, 0));
+    const ColorImage image = renderPoints(each, ViewCamera(each, {40, 30}), {40, 30});
+    EXPECT_TRUE(same(image(15, 20), image(0, 0)));
   }
 }
 
@@ -138,18 +139,17 @@ TEST(Picture, DrawsBoxAxesAndLabelWhereTheyBelong) {
   detection.box_size = Eigen::Vector3d(0.1, 0.2, 0.001);
   Picture picture(cloud, {800, 600});
   picture.drawDetection(detection, magenta);
-  const cv::Mat image = saved(picture);
+  const ColorImage image = saved(picture);
   const ViewCamera camera(cloud, {800, 600});
-  const cv::Vec3b box_color(magenta.b, magenta.g, magenta.r);
   for (const double side : {-0.05, 0.05}) {
-    EXPECT_EQ(at(image, camera.pixel({0.05 + side, 0.03, 1})), box_color);
-    EXPECT_EQ(at(image, camera.pixel({0.05, 2 * side, 1})), box_color);
+    EXPECT_TRUE(same(at(image, camera.pixel({0.05 + side, 0.03, 1})), magenta));
+    EXPECT_TRUE(same(at(image, camera.pixel({0.05, 2 * side, 1})), magenta));
   }
-  const cv::Vec3b x_axis = at(image, camera.pixel({0.08, 0, 1})), y_axis = at(image, camera.pixel({0.05, 0.05, 1}));
-  EXPECT_TRUE(x_axis[2] > 200 && x_axis[0] < 100) << x_axis;
-  EXPECT_TRUE(y_axis[1] > 200 && y_axis[2] < 100) << y_axis;
-  const cv::Point2d above = camera.pixel({0.05, -0.1, 1}) - cv::Point2d(0, 10);
-  EXPECT_EQ(at(image, {above.x, above.y}), box_color);  // the label's plate
+  const Rgb x_axis = at(image, camera.pixel({0.08, 0, 1})), y_axis = at(image, camera.pixel({0.05, 0.05, 1}));
+  EXPECT_TRUE(x_axis.r > 200 && x_axis.b < 100) << int(x_axis.r) << " " << int(x_axis.b);
+  EXPECT_TRUE(y_axis.g > 200 && y_axis.r < 100) << int(y_axis.g) << " " << int(y_axis.r);
+  const Eigen::Vector2d above = camera.pixel({0.05, -0.1, 1}) - Eigen::Vector2d(0, 10);
+  EXPECT_TRUE(same(at(image, above), magenta));  // the label's plate
 }
 
 TEST(Picture, LabelsKeepClearOfEachOther) {
@@ -172,10 +172,27 @@ TEST(Picture, WhatLiesBehindTheCameraIsLeftOut) {
   picture.drawBox(behind, Eigen::Vector3d::Ones(), magenta);
   picture.drawCross(behind.translation(), magenta);
   picture.drawLabel(behind, Eigen::Vector3d::Ones(), "behind", magenta);
-  EXPECT_EQ(cv::norm(saved(picture), saved(empty), cv::NORM_INF), 0);
+  EXPECT_EQ(encodePng(saved(picture)), encodePng(saved(empty)));
   // A long box around the camera is cut at it.
   picture.drawBox(Eigen::Isometry3d::Identity(), {0.2, 0.2, 1.9}, magenta);
   EXPECT_GT(count(saved(picture), magenta), 0u);
+}
+
+TEST(Picture, TextIsReadable) {
+  ColorImage image(80, 40);
+  drawText(image, "I_", {10, 30}, magenta);
+  const PictureSize size = textSize("I_");
+  EXPECT_GT(size.width, size.height);
+  const auto inked = [&](int column, int row) { return image(row, column).r > 100; };
+  EXPECT_TRUE(inked(10 + 4, 30 - size.height / 2)) << "the stem of the I";
+  EXPECT_FALSE(inked(10 + 1, 30 - size.height / 2));
+  EXPECT_FALSE(inked(10 + 17, 30 - size.height / 2));
+  EXPECT_TRUE(inked(10 + 17, 32)) << "the line below";
+  ColorImage question(20, 40), unknown(20, 40);
+  drawText(question, "?", {4, 30}, magenta);
+  drawText(unknown, "\x80", {4, 30}, magenta);
+  EXPECT_GT(count(question, magenta), 5u);
+  EXPECT_EQ(encodePng(question), encodePng(unknown));
 }
 
 TEST(Picture, PaletteColoursDiffer) {

@@ -5,8 +5,6 @@
 #include <tuple>
 
 #include <gtest/gtest.h>
-#include <pcl/features/principal_curvatures.h>
-#include <pcl/search/kdtree.h>
 #include <Eigen/Eigenvalues>
 
 #include <sks_detector/stages/keypoints.hpp>
@@ -14,7 +12,6 @@
 #include "bumps.hpp"
 #include "core/keypoints/otsu.hpp"
 #include "core/keypoints/sparse_selection.hpp"
-#include "pcl_clouds.hpp"
 #include "synthetic.hpp"
 
 namespace {
@@ -100,29 +97,6 @@ TEST(Curvature, EqualsItsDefinition) {
   for (std::size_t i = 0; i < keypoints.size(); ++i) {
     const double expected = plainCurvature(surface, keypoints.positions[i], keypoints.normals[i], 0.02f);
     EXPECT_NEAR(keypoints.curvature[i], expected, 1e-4 * expected + 1e-12);
-  }
-}
-
-TEST(Curvature, EqualsPclsPrincipalCurvatures) {
-  const sks::Surface surface = prepare(sks::test::bumps());
-  const auto points = sks::test::pclPoints(surface.positions());
-  pcl::PrincipalCurvaturesEstimation<pcl::PointXYZ, pcl::Normal, pcl::PrincipalCurvatures> estimation;
-  pcl::search::KdTree<pcl::PointXYZ> tree;
-  tree.setInputCloud(points);
-  // At points of the surface: there both use the point's own normal.
-  sks::Keypoints keypoints;
-  for (std::size_t i = 3; i < surface.size(); i += 37) keypoints.positions.push_back(surface.point(i));
-  sks::measureCurvature(surface, keypoints, {}, {}, 1);
-  for (std::size_t k = 0; k < keypoints.size(); ++k) {
-    const int index = int(3 + 37 * k);
-    std::vector<int> neighbors;
-    std::vector<float> distances;
-    tree.radiusSearch((*points)[std::size_t(index)], 0.02, neighbors, distances);
-    pcl::Indices indices(neighbors.begin(), neighbors.end());
-    float x, y, z, pc1, pc2;
-    estimation.computePointPrincipalCurvatures(*sks::test::pclNormals(surface), index, indices, x, y, z, pc1, pc2);
-    const double expected = double(pc1) * pc2;
-    EXPECT_NEAR(keypoints.curvature[k], expected, 1e-4 * expected + 1e-9);
   }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <pcl/recognition/cg/geometric_consistency.h>
+// Its template, as the library of PCL that holds it loads VTK.
+#include <pcl/recognition/impl/cg/geometric_consistency.hpp>
 
 #include "baselines/grouping.hpp"
 

@@ -21,14 +21,6 @@ namespace fs = std::filesystem;
 constexpr const char* heading =
     "# Captured training views. Entries may be deleted while no detector runs; the clouds they name may be, too.\n";
 
-void makeFolder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw Error(ErrorCode::bad_file, "cannot make the folder '" + folder.string() + "': " + error.message());
-  }
-}
-
 /// `000.pcd`, or the name after the last one: a number is not used again while a later file stands there.
 std::string nextName(const fs::path& folder) {
   long next = 0;

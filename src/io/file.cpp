@@ -20,6 +20,12 @@ void writeFileAtomically(const std::string& path, const std::string& content) {
   file.commit();
 }
 
+void makeFolder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw Error(ErrorCode::bad_file, "cannot make the folder '" + path + "': " + error.message());
+}
+
 void checkWritable(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored) &&

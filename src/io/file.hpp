@@ -10,6 +10,9 @@ namespace sks {
 /// @throws Error(bad_file) naming the path and the system's reason; the old file is then untouched
 void writeFileAtomically(const std::string& path, const std::string& content);
 
+/// Makes a folder and those above it, where they are not there. @throws Error(bad_file)
+void makeFolder(const std::string& path);
+
 /// Throws now what writing to `path` would throw later: no such folder, no permission. @throws Error(bad_file)
 void checkWritable(const std::string& path);
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include <sks_detector/error.hpp>
+#include "io/file.hpp"
 
 namespace sks_detector {
 namespace {
@@ -42,12 +42,7 @@ std::string datasetDirectory(const NodeSettings& settings) {
 }
 
 void makeFolderOf(const std::string& file) {
-  const fs::path folder = fs::path(file).parent_path();
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw sks::Error(sks::ErrorCode::bad_file, "cannot make the folder '" + folder.string() + "': " + error.message());
-  }
+  sks::makeFolder(fs::path(file).parent_path().string());
 }
 
 }  // namespace sks_detector

@@ -15,8 +15,8 @@
 #include "core/settings/value_text.hpp"
 #include "io/file.hpp"
 #include "ros/folders.hpp"
-#include "ros/mesh_sampler.hpp"
 #include "ros/training_set.hpp"
+#include "simulation/mesh_sampler.hpp"
 
 namespace sks_detector {
 
@@ -41,8 +41,11 @@ void TrainingServices::work(const Train::Request& request, const sks::Progress& 
     makeFolderOf(output);
     sks::checkWritable(output);
   }
+  sks::MeshTraining mesh_training;
+  mesh_training.threads = settings.threads;
+  const auto warn = [](const std::string& warning) { ROS_WARN_STREAM(warning); };
   const TrainingSet set = gatherTrainingSet(request.dataset, request.captured, context_.captured,
-                                            context_.dataset_directory, meshSampler(settings.threads));
+                                            context_.dataset_directory, sks::meshSampler(mesh_training, warn));
   for (const std::string& warning : set.warnings) ROS_WARN_STREAM(warning);
 
   const std::string name = request.name.empty() ? set.name : request.name;

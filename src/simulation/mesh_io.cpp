@@ -13,10 +13,10 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
-#include <opencv2/imgcodecs.hpp>
 
 #include <sks_detector/error.hpp>
 
+#include "io/image_file.hpp"
 #include "io/ply_file.hpp"
 
 namespace sks {
@@ -90,17 +90,19 @@ Texture MeshReader::readTexture(const std::string& name) {
   std::replace(file.begin(), file.end(), '\\', '/');
   file.erase(file.find_last_not_of(" \t\r") + 1);  // MTL files of scanners end lines with a space
   file = (fs::path(path_).parent_path() / file).lexically_normal().string();
-  cv::Mat image;
+  std::string reason = "it does not exist";
   std::error_code ignored;
-  if (fs::is_regular_file(file, ignored)) image = cv::imread(file, cv::IMREAD_COLOR);
-  if (image.empty()) {
-    result_.warnings.push_back(path_ + ": its texture '" + file + "' cannot be read; the mesh has no colour there");
-    return {};
+  try {
+    if (fs::is_regular_file(file, ignored)) {
+      ColorImage image = readColorImage(file);
+      return {image.width, image.height, std::move(image.pixels)};
+    }
+  } catch (const Error& error) {
+    reason = error.what();
   }
-  std::vector<Rgb> pixels;
-  pixels.reserve(image.total());
-  for (const cv::Vec3b& bgr : cv::Mat3b(image)) pixels.push_back({bgr[2], bgr[1], bgr[0]});
-  return {image.cols, image.rows, std::move(pixels)};
+  result_.warnings.push_back(path_ + ": its texture '" + file + "' cannot be read (" + reason +
+                             "); the mesh has no colour there");
+  return {};
 }
 
 void MeshReader::add(const aiMesh& part) {

@@ -32,6 +32,7 @@ void addEvaluate(CLI::App& app);
 void addClassify(CLI::App& app);
 void addKeypoints(CLI::App& app);
 void addImport(CLI::App& app);
+void addSimulate(CLI::App& app);
 void addInfo(CLI::App& app);
 void addVerify(CLI::App& app);
 void addSettings(CLI::App& app);

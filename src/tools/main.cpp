@@ -8,7 +8,6 @@
 #include "tools/bag.hpp"
 #include "tools/command.hpp"
 #include "tools/progress_bar.hpp"
-#include "tools/simulation.hpp"
 
 namespace {
 

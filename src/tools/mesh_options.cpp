@@ -2,10 +2,13 @@
 #include "tools/mesh_options.hpp"
 
 #include <algorithm>
+#include <thread>
 
 #include <sks_detector/error.hpp>
 
-#include "tools/simulation.hpp"
+#include "simulation/builtin_objects.hpp"
+#include "simulation/mesh_sampler.hpp"
+#include "tools/command.hpp"
 
 namespace sks::tools {
 
@@ -32,7 +35,7 @@ std::vector<TrainingEntry> MeshOptions::entries() const {
     entries.push_back(entry);
   };
   if (builtin_) {
-    for (const std::string& name : builtinObjects()) add(name, "builtin:" + name);
+    for (const std::string& name : builtinNames()) add(name, "builtin:" + name);
   }
   for (const std::string& mesh : meshes_) {
     const std::size_t equals = mesh.find('=');
@@ -51,7 +54,12 @@ void MeshViewOptions::add(CLI::App& command) {
 }
 
 MeshSampler MeshViewOptions::sampler() const {
-  return meshSampler(views_, distance_, noise_);
+  MeshTraining training;
+  training.views = views_;
+  training.distance = distance_;
+  training.noise = noise_;
+  training.threads = std::max(1, int(std::thread::hardware_concurrency()));
+  return meshSampler(training, warn);
 }
 
 }  // namespace sks::tools

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/plot_script.hpp"
 
-#include <filesystem>
-
 #include <sks_detector/error.hpp>
 
 #include "tools/run_program.hpp"
 #include "tools/share.hpp"
 
 namespace sks::tools {
-
-void makeFolder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw Error(ErrorCode::bad_file, "cannot make the folder '" + folder + "': " + error.message());
-}
 
 void runPlotScript(const std::string& script, const std::vector<std::string>& arguments) {
   std::vector<std::string> command{"/usr/bin/python3", sharePath(script)};

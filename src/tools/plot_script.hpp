@@ -6,9 +6,6 @@
 
 namespace sks::tools {
 
-/// Makes a folder and those above it. @throws Error(bad_file)
-void makeFolder(const std::string& folder);
-
 /// Runs a plotting script that comes with the program; it says on stderr what is wrong.
 /// @param script for example "scripts/plot_evaluation.py"
 /// @throws Error(bad_file) if it cannot be run or fails

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <opencv2/core/mat.hpp>
-
 #include <sks_detector/cloud.hpp>
 
+#include "io/image_file.hpp"
 #include "tools/view_camera.hpp"
 
 namespace sks::tools {
 
 /// What the camera sees of a cloud: the nearest point at each pixel in its colour, or, without colour, shaded by the
-/// surface's inclination and its depth. Small gaps between points are closed. 8-bit BGR.
-cv::Mat renderPoints(const Cloud& cloud, const ViewCamera& camera, cv::Size size);
+/// surface's inclination and its depth. Small gaps between points are closed.
+ColorImage renderPoints(const Cloud& cloud, const ViewCamera& camera, PictureSize size);
 
 }  // namespace sks::tools

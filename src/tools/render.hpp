@@ -5,11 +5,12 @@
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <opencv2/core/mat.hpp>
 
 #include <sks_detector/cloud.hpp>
 #include <sks_detector/detection.hpp>
 
+#include "io/image_file.hpp"
+#include "tools/canvas.hpp"
 #include "tools/view_camera.hpp"
 
 namespace sks::tools {
@@ -17,7 +18,7 @@ namespace sks::tools {
 /// A picture of a cloud as its sensor sees it, with what was found in it; needs no display.
 class Picture {
 public:
-  explicit Picture(const Cloud& cloud, cv::Size size = {1280, 960});
+  explicit Picture(const Cloud& cloud, PictureSize size = {1280, 960});
 
   /// The edges of an oriented box. @param box_size full extents along its axes [m]
   void drawBox(const Eigen::Isometry3d& T_cloud_box, const Eigen::Vector3d& box_size, Rgb color);
@@ -40,15 +41,15 @@ public:
 
 private:
   struct Label {
-    cv::Rect plate;
+    PixelBox plate;
     std::string text;
     Rgb color;
   };
 
-  void drawLine(const Eigen::Vector3d& from, const Eigen::Vector3d& to, Rgb color, int thickness);
+  void drawEdge(const Eigen::Vector3d& from, const Eigen::Vector3d& to, Rgb color, double thickness);
 
   ViewCamera camera_;
-  cv::Mat image_;
+  ColorImage image_;
   std::vector<Label> labels_;  // painted last
 };
 

@@ -75,7 +75,7 @@ std::pair<double, double> innerRange(std::vector<double> values) {
 
 }  // namespace
 
-ViewCamera::ViewCamera(const Cloud& cloud, cv::Size size)
+ViewCamera::ViewCamera(const Cloud& cloud, PictureSize size)
     : focal_(size.width), center_(0.5 * size.width, 0.5 * size.height) {
   const std::vector<Eigen::Vector3d> points = finitePoints(cloud);
   T_camera_cloud_ = choosePose(points, cloud.sensor_origin.cast<double>());
@@ -93,15 +93,15 @@ ViewCamera::ViewCamera(const Cloud& cloud, cv::Size size)
   constexpr double margin = 0.94, narrowest = 1e-3;
   focal_ = margin *
            std::min(size.width / std::max(right - left, narrowest), size.height / std::max(bottom - top, narrowest));
-  center_ -= 0.5 * focal_ * cv::Point2d(left + right, top + bottom);
+  center_ -= 0.5 * focal_ * Eigen::Vector2d(left + right, top + bottom);
 }
 
-cv::Point2d ViewCamera::pixel(const Eigen::Vector3d& in_camera) const {
-  return center_ + focal_ / in_camera.z() * cv::Point2d(in_camera.x(), in_camera.y());
+Eigen::Vector2d ViewCamera::pixel(const Eigen::Vector3d& in_camera) const {
+  return center_ + focal_ / in_camera.z() * Eigen::Vector2d(in_camera.x(), in_camera.y());
 }
 
 Eigen::Vector3d ViewCamera::ray(double column, double row) const {
-  return {(column - center_.x) / focal_, (row - center_.y) / focal_, 1};
+  return {(column - center_.x()) / focal_, (row - center_.y()) / focal_, 1};
 }
 
 }  // namespace sks::tools

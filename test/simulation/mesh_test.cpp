@@ -3,9 +3,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
 
 #include "error_of.hpp"
+#include "io/image_file.hpp"
 #include "simulation/shapes.hpp"
 #include "temporary_folder.hpp"
 
@@ -70,9 +70,9 @@ TEST_F(MeshFile, LargeMeshIsTakenForMillimetresAndSaysSo) {
 }
 
 TEST_F(MeshFile, TextureGivesColour) {
-  cv::Mat3b image(2, 2, cv::Vec3b(0, 0, 255));
-  image(0, 1) = image(1, 1) = cv::Vec3b(255, 0, 0);  // left red, right blue
-  cv::imwrite(folder_.path("t.png"), image);
+  ColorImage image(2, 2, {255, 0, 0});
+  image(0, 1) = image(1, 1) = {0, 0, 255};  // left red, right blue
+  write("t.png", encodePng(image));
   write("a.mtl", "newmtl m\nmap_Kd t.png \n");
   const Mesh mesh = loadMesh(write("a.obj",
                                    "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0.25 0.5\nvt 0.75 0.5\n"

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 
-#include <pcl/point_types.h>
-#include <pcl/search/kdtree.h>
-#include <pcl/segmentation/extract_clusters.h>
+#include <sks_detector/stages/point_grid.hpp>
 
 namespace sks {
 
@@ -17,19 +15,25 @@ std::vector<Eigen::Vector3f> at(const std::vector<Eigen::Vector3f>& points, cons
 }
 
 std::vector<Indices> findClusters(const std::vector<Eigen::Vector3f>& points, double gap) {
-  if (points.empty()) return {};
-  const pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
-  for (const Eigen::Vector3f& p : points) cloud->push_back({p.x(), p.y(), p.z()});
-  const pcl::search::KdTree<pcl::PointXYZ>::Ptr tree(new pcl::search::KdTree<pcl::PointXYZ>);
-  pcl::EuclideanClusterExtraction<pcl::PointXYZ> extraction;
-  extraction.setClusterTolerance(gap);
-  extraction.setSearchMethod(tree);
-  extraction.setInputCloud(cloud);
-  std::vector<pcl::PointIndices> found;
-  extraction.extract(found);
+  const PointGrid grid(points, gap);
+  std::vector<PointGrid::Run> runs;
+  std::vector<bool> taken(points.size(), false);
   std::vector<Indices> clusters;
-  clusters.reserve(found.size());
-  for (const pcl::PointIndices& cluster : found) clusters.emplace_back(cluster.indices.begin(), cluster.indices.end());
+  for (std::uint32_t first = 0; first < points.size(); ++first) {
+    if (taken[first]) continue;
+    taken[first] = true;
+    Indices cluster{first};
+    for (std::size_t i = 0; i < cluster.size(); ++i) {  // grows meanwhile
+      grid.forEachNeighbor(points[cluster[i]], float(gap), runs, [&](std::uint32_t k, float) {
+        const std::uint32_t neighbor = grid.source[k];
+        if (taken[neighbor]) return;
+        taken[neighbor] = true;
+        cluster.push_back(neighbor);
+      });
+    }
+    std::sort(cluster.begin(), cluster.end());
+    clusters.push_back(std::move(cluster));
+  }
   const auto larger = [](const Indices& a, const Indices& b) { return a.size() > b.size(); };
   std::stable_sort(clusters.begin(), clusters.end(), larger);
   return clusters;

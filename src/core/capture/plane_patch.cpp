@@ -1,49 +1,55 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/capture/plane_patch.hpp"
 
-#include <algorithm>
 #include <cmath>
 
-#include <pcl/point_types.h>
-#include <pcl/sample_consensus/ransac.h>
-#include <pcl/sample_consensus/sac_model_plane.h>
-#include <Eigen/Eigenvalues>
+#include <random>
+
+#include <sks_detector/stages/point_grid.hpp>
+
+#include "core/surface/plane_fit.hpp"
+#include "core/surface/plane_ransac.hpp"
 
 namespace sks {
 namespace {
 
-using PclCloud = pcl::PointCloud<pcl::PointXYZ>;
-using PlaneModel = pcl::SampleConsensusModelPlane<pcl::PointXYZ>;
+constexpr float agreement = 0.9f;  // cosine between the normals of a plane and of its points; about 25 degrees
+constexpr int fewest_neighbors = 5;
 
-constexpr int iterations = 1000;
-constexpr double probability = 0.999;  // that a sample without outliers was among them
+/// The points that have a normal, which points to the sensor. @param radius of the neighbourhood for a normal [m]
+OrientedPoints withNormals(const std::vector<Eigen::Vector3f>& points, double radius, const Eigen::Vector3f& sensor) {
+  const PointGrid grid(points, radius);
+  std::vector<float> nx(points.size()), ny(points.size()), nz(points.size());
+  fitPlanesAtPoints(grid, 0, grid.size(), float(radius), fewest_neighbors, {nx.data(), ny.data(), nz.data()});
+  OrientedPoints oriented;
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const Eigen::Vector3f normal(nx[i], ny[i], nz[i]);
+    if (!normal.allFinite()) continue;
+    oriented.add(grid.point(i), normal.dot(sensor - grid.point(i)) < 0 ? Eigen::Vector3f(-normal) : normal);
+  }
+  return oriented;
+}
 
-Indices planeInliers(const std::vector<Eigen::Vector3f>& points, double tolerance) {
-  const PclCloud::Ptr cloud(new PclCloud);
-  for (const Eigen::Vector3f& p : points) cloud->push_back({p.x(), p.y(), p.z()});
-  const PlaneModel::Ptr model(new PlaneModel(cloud));  // its seed is fixed
-  pcl::RandomSampleConsensus<pcl::PointXYZ> ransac(model, tolerance);
-  ransac.setMaxIterations(iterations);
-  ransac.setProbability(probability);
-  std::vector<int> inliers;
-  if (ransac.computeModel()) ransac.getInliers(inliers);
-  return {inliers.begin(), inliers.end()};
+/// All points at the plane that most points with normals belong to.
+Indices planeInliers(const std::vector<Eigen::Vector3f>& points, double tolerance, double gap,
+                     const Eigen::Vector3f& sensor) {
+  const OrientedPoints oriented = withNormals(points, gap, sensor);
+  if (oriented.size() < 3) return {};
+  std::mt19937 random(1);
+  const InfinitePlane plane = mostSupportedPlane(oriented, {float(tolerance), agreement}, 3, random, 1).plane;
+  Indices inliers;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (std::abs(plane.normal.dot(points[i]) - plane.offset) < tolerance) inliers.push_back(i);
+  }
+  return inliers;
 }
 
 void fit(PlanePatch& patch, const Eigen::Vector3f& sensor) {
-  const double count = double(patch.points.size());
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const auto& p : patch.points) mean += p.cast<double>() / count;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const auto& p : patch.points) {
-    const Eigen::Vector3d d = p.cast<double>() - mean;
-    covariance += d * d.transpose() / count;
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-  patch.deviation = std::sqrt(std::max(0.0, solver.eigenvalues()[0]));
-  Eigen::Vector3d normal = solver.eigenvectors().col(0);
-  if (normal.dot(sensor.cast<double>() - mean) < 0) normal = -normal;
-  patch.plane = Eigen::Hyperplane<float, 3>(normal.cast<float>(), mean.cast<float>());
+  const PlaneFit least = leastSquaresPlane(patch.points);
+  patch.deviation = std::sqrt(least.variances[0]);
+  const bool away = least.normal.dot(sensor.cast<double>() - least.mean) < 0;
+  const Eigen::Vector3d normal = away ? Eigen::Vector3d(-least.normal) : least.normal;
+  patch.plane = Eigen::Hyperplane<float, 3>(normal.cast<float>(), least.mean.cast<float>());
 }
 
 }  // namespace
@@ -52,7 +58,7 @@ PlanePatch largestPatch(const std::vector<Eigen::Vector3f>& points, double toler
                         const Eigen::Vector3f& sensor) {
   PlanePatch patch;
   if (points.size() < 3) return patch;
-  patch.inliers = planeInliers(points, tolerance);
+  patch.inliers = planeInliers(points, tolerance, gap, sensor);
   const std::vector<Eigen::Vector3f> on_plane = at(points, patch.inliers);
   const std::vector<Indices> parts = findClusters(on_plane, gap);
   if (parts.empty() || parts[0].size() < 3) return patch;

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
-#include <pcl/point_types.h>
-#include <pcl/search/kdtree.h>
 #include <Eigen/Geometry>
+
+#include <sks_detector/stages/point_grid.hpp>
+
+#include "core/capture/clusters.hpp"
 
 namespace sks {
 namespace {
@@ -22,21 +25,24 @@ std::string millimetres(double metres) {
   return text;
 }
 
-double medianSpacing(const Cloud& cloud, const std::vector<std::uint32_t>& points) {
-  const pcl::PointCloud<pcl::PointXYZ>::Ptr object(new pcl::PointCloud<pcl::PointXYZ>);
-  for (const std::uint32_t i : points) {
-    object->push_back({cloud.points[i].x(), cloud.points[i].y(), cloud.points[i].z()});
+/// Distance of a point to the nearest other one. @param reach where to begin to look [m], more than 0
+float nearestDistance(const PointGrid& grid, std::uint32_t point, float reach, std::vector<PointGrid::Run>& runs) {
+  float nearest = std::numeric_limits<float>::infinity();
+  for (float radius = reach; nearest > radius * radius; radius *= 2) {
+    grid.forEachNeighbor(grid.point(point), radius, runs, [&](std::uint32_t i, float squared) {
+      if (i != point) nearest = std::min(nearest, squared);
+    });
   }
-  if (object->size() < 2) return 0;
-  pcl::search::KdTree<pcl::PointXYZ> tree;
-  tree.setInputCloud(object);
+  return std::sqrt(nearest);
+}
+
+double medianSpacing(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& extent) {
+  const float reach = extent.norm() / std::sqrt(float(points.size()));
+  if (points.size() < 2 || !(reach > 0)) return 0;
+  const PointGrid grid(points, reach);
+  std::vector<PointGrid::Run> runs;
   std::vector<float> distances;
-  for (const pcl::PointXYZ& p : *object) {
-    std::vector<int> nearest;
-    std::vector<float> squared;
-    tree.nearestKSearch(p, 2, nearest, squared);
-    distances.push_back(std::sqrt(squared[1]));
-  }
+  for (std::uint32_t i = 0; i < grid.size(); ++i) distances.push_back(nearestDistance(grid, i, reach, runs));
   const auto middle = distances.begin() + std::ptrdiff_t(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
   return *middle;
@@ -73,7 +79,7 @@ ViewQuality assessView(const Cloud& cloud, const std::vector<std::uint32_t>& poi
   Eigen::AlignedBox3f box;
   for (const std::uint32_t i : points) box.extend(cloud.points[i]);
   quality.extent = box.sizes();
-  quality.spacing = medianSpacing(cloud, points);
+  quality.spacing = medianSpacing(at(cloud.points, points), box.sizes());
 
   const auto remark = [&](const std::string& text) { quality.remarks.push_back(text); };
   const double normal_radius = settings.surface.normal_radius, finest = normal_radius / normal_radius_per_spacing;

@@ -3,35 +3,60 @@
 
 #include <algorithm>
 
-#include <pcl/keypoints/iss_3d.h>
-#include <pcl/point_types.h>
-#include <pcl/search/kdtree.h>
+#include <Eigen/Eigenvalues>
 
 namespace sks {
+namespace {
+
+/// The smallest eigenvalue of the scatter of a point's neighbours; 0 where two eigenvalues are too much alike, as the
+/// axes of the shape are then not distinct, or where there are too few neighbours.
+double saliencyAt(const Surface& surface, std::size_t point, const KeypointSettings& settings,
+                  std::vector<PointGrid::Run>& runs) {
+  const Eigen::Vector3f center = surface.point(point);
+  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+  int neighbors = 0;
+  surface.forEachNeighbor(center, float(settings.iss_salient_radius), runs, [&](std::uint32_t i, float) {
+    const Eigen::Vector3d offset = surface.point(i).cast<double>() - center.cast<double>();
+    scatter += offset * offset.transpose();
+    ++neighbors;
+  });
+  if (neighbors < settings.iss_min_neighbors) return 0;
+  const Eigen::Vector3d values =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+  const bool distinct = values[1] < settings.iss_gamma_21 * values[2] && values[0] < settings.iss_gamma_32 * values[1];
+  return distinct ? std::max(values[0], 0.0) : 0.0;
+}
+
+bool isLargest(const std::vector<double>& saliency, const Surface& surface, std::size_t point,
+               const KeypointSettings& settings, std::vector<PointGrid::Run>& runs) {
+  if (!(saliency[point] > 0)) return false;
+  int neighbors = 0;
+  bool largest = true;
+  surface.forEachNeighbor(surface.point(point), float(settings.iss_suppression_radius), runs,
+                          [&](std::uint32_t i, float) {
+                            ++neighbors;
+                            if (saliency[i] > saliency[point]) largest = false;
+                          });
+  return largest && neighbors >= settings.iss_min_neighbors;
+}
+
+}  // namespace
 
 Keypoints issKeypoints(const Surface& surface, const KeypointSettings& settings, int threads) {
-  pcl::PointCloud<pcl::PointXYZ>::Ptr cloud(new pcl::PointCloud<pcl::PointXYZ>);
-  cloud->reserve(surface.size());
-  for (std::size_t i = 0; i < surface.size(); ++i) cloud->push_back({surface.x[i], surface.y[i], surface.z[i]});
-
-  pcl::ISSKeypoint3D<pcl::PointXYZ, pcl::PointXYZ> detector;
-  detector.setSearchMethod(pcl::search::KdTree<pcl::PointXYZ>::Ptr(new pcl::search::KdTree<pcl::PointXYZ>));
-  detector.setInputCloud(cloud);
-  detector.setSalientRadius(settings.iss_salient_radius);
-  detector.setNonMaxRadius(settings.iss_suppression_radius);
-  detector.setThreshold21(settings.iss_gamma_21);
-  detector.setThreshold32(settings.iss_gamma_32);
-  detector.setMinNeighbors(settings.iss_min_neighbors);
-  detector.setNumberOfThreads(unsigned(threads));
-  pcl::PointCloud<pcl::PointXYZ> found;
-  detector.compute(found);
-
-  // PCL's threads append in any order.
-  std::vector<int> indices(detector.getKeypointsIndices()->indices.begin(),
-                           detector.getKeypointsIndices()->indices.end());
-  std::sort(indices.begin(), indices.end());
+  std::vector<double> saliency(surface.size());
+  std::vector<char> chosen(surface.size());
+#pragma omp parallel num_threads(threads)
+  {
+    std::vector<PointGrid::Run> runs;
+#pragma omp for schedule(dynamic, 256)
+    for (std::size_t i = 0; i < surface.size(); ++i) saliency[i] = saliencyAt(surface, i, settings, runs);
+#pragma omp for schedule(dynamic, 256)
+    for (std::size_t i = 0; i < surface.size(); ++i) chosen[i] = isLargest(saliency, surface, i, settings, runs);
+  }
   Keypoints keypoints;
-  for (const int i : indices) keypoints.positions.push_back(surface.point(std::size_t(i)));
+  for (std::size_t i = 0; i < surface.size(); ++i) {
+    if (chosen[i]) keypoints.positions.push_back(surface.point(i));
+  }
   return keypoints;
 }
 

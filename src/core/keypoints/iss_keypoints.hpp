@@ -7,7 +7,8 @@
 
 namespace sks {
 
-/// Intrinsic shape signatures (Zhong 2009), by PCL.
+/// Intrinsic shape signatures (Zhong 2009) as PCL has them: neighbours without weights. Points of the surface, in its
+/// order; the same for any number of threads.
 Keypoints issKeypoints(const Surface& surface, const KeypointSettings& settings, int threads);
 
 }  // namespace sks

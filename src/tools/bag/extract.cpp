@@ -36,11 +36,7 @@ struct Options {
 /// A folder that is filled with clouds, and the data set file that lists them.
 class ExtractedSet {
 public:
-  explicit ExtractedSet(const std::string& folder) : folder_(folder) {
-    std::error_code error;
-    fs::create_directories(folder_ / "scenes", error);
-    if (error) throw Error(ErrorCode::bad_file, "cannot make the folder '" + folder + "': " + error.message());
-  }
+  explicit ExtractedSet(const std::string& folder) : folder_(folder) { makeFolder((folder_ / "scenes").string()); }
 
   /// @param truth null where it is not known
   void add(const ros::Time& stamp, const Cloud& cloud, const RecordedArray* truth) {

@@ -7,7 +7,7 @@
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
 
-#include "tools/plot_script.hpp"
+#include "io/file.hpp"
 
 namespace sks::tools {
 

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/simulation/simulated_set.hpp"
+#include "tools/simulated_set.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include <sks_detector/cloud_io.hpp>
-#include <sks_detector/error.hpp>
 
 #include "io/file.hpp"
+#include "io/image_file.hpp"
 #include "simulation/mesh_symmetry.hpp"
 #include "tools/data_set_yaml.hpp"
 
@@ -27,23 +25,16 @@ std::string relativeSource(const std::string& source, const std::string& folder)
   return source.rfind("builtin:", 0) == 0 ? source : fs::relative(source, folder).lexically_normal().string();
 }
 
-void writePng(const std::string& path, const cv::Mat& image) {
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", image, bytes)) throw Error(ErrorCode::bad_file, "cannot write '" + path + "': no PNG");
-  writeFileAtomically(path, std::string(bytes.begin(), bytes.end()));
-}
-
-cv::Mat3b colorImage(const Cloud& cloud) {
-  cv::Mat3b image(int(cloud.height), int(cloud.width));
-  std::transform(cloud.colors.begin(), cloud.colors.end(), image.begin(),
-                 [](const Rgb& c) { return cv::Vec3b(c.b, c.g, c.r); });
+ColorImage colorImage(const Cloud& cloud) {
+  ColorImage image(int(cloud.width), int(cloud.height));
+  image.pixels = cloud.colors;
   return image;
 }
 
-cv::Mat1w depthImage(const Rendering& view) {
-  cv::Mat1w image(int(view.cloud.height), int(view.cloud.width));
+DepthImage depthImage(const Rendering& view) {
+  DepthImage image(int(view.cloud.width), int(view.cloud.height));
   const std::vector<float> depth = view.depth();
-  std::transform(depth.begin(), depth.end(), image.begin(), [](float z) {
+  std::transform(depth.begin(), depth.end(), image.pixels.begin(), [](float z) {
     return std::isfinite(z) ? std::uint16_t(std::min(65535L, std::lround(1000 * z))) : std::uint16_t(0);
   });
   return image;
@@ -61,9 +52,7 @@ std::string symmetryText(const TrainingEntry& entry, const Mesh& mesh) {
 SimulatedSet::SimulatedSet(const std::string& folder, const std::vector<TrainingEntry>& training,
                            const std::vector<SceneModel>& models)
     : folder_(folder) {
-  std::error_code error;
-  fs::create_directories(fs::path(folder) / "scenes", error);
-  if (error) throw Error(ErrorCode::bad_file, "cannot make the folder '" + folder + "': " + error.message());
+  makeFolder((fs::path(folder) / "scenes").string());
   for (std::size_t i = 0; i < models.size(); ++i) {
     sources_.push_back(relativeSource(models[i].source, folder));
     objects_.push_back(models[i].object);
@@ -93,8 +82,8 @@ void SimulatedSet::add(const SimulatedScene& scene) {
   std::snprintf(name, sizeof(name), "scene%03d", count_++);
   const std::string base = (fs::path(folder_) / "scenes" / name).string();
   writeCloud(base + ".pcd", scene.view.cloud);
-  writePng(base + "_color.png", colorImage(scene.view.cloud));
-  writePng(base + "_depth.png", depthImage(scene.view));
+  writeFileAtomically(base + "_color.png", encodePng(colorImage(scene.view.cloud)));
+  writeFileAtomically(base + "_depth.png", encodePng(depthImage(scene.view)));
   Scene entry = groundTruthScene(name, truth(scene));
   entry.path = std::string("scenes/") + name + ".pcd";
   scenes_ += sceneYaml(entry);

@@ -12,8 +12,7 @@
 #include "tools/command.hpp"
 #include "tools/mesh_options.hpp"
 #include "tools/progress_bar.hpp"
-#include "tools/simulation.hpp"
-#include "tools/simulation/simulated_set.hpp"
+#include "tools/simulated_set.hpp"
 
 namespace sks::tools {
 namespace {

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/image_file.hpp"
+
+#include <sks_detector/error.hpp>
+
+#include "io/file.hpp"
+#include "io/image_codec.hpp"
+
+namespace sks {
+namespace {
+
+constexpr std::size_t max_file_bytes = std::size_t(1) << 30;
+
+bool startsWith(const std::string& bytes, const std::string& signature) {
+  return bytes.compare(0, signature.size(), signature) == 0;
+}
+
+/// What `decode` makes of a file's bytes.
+template <typename Decode>
+auto readWith(const std::string& path, Decode decode) {
+  const std::string bytes = readTextFile(path, max_file_bytes);
+  try {
+    return decode(bytes);
+  } catch (const CodecError& error) {
+    throw Error(ErrorCode::bad_file, "cannot read '" + path + "': " + error.what());
+  }
+}
+
+}  // namespace
+
+ColorImage readColorImage(const std::string& path) {
+  return readWith(path, [](const std::string& bytes) {
+    if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return decodeColorPng(bytes);
+    if (startsWith(bytes, "\xff\xd8\xff")) return decodeJpeg(bytes);
+    throw CodecError("it is neither a PNG nor a JPEG file");
+  });
+}
+
+DepthImage readDepthImage(const std::string& path) {
+  return readWith(path, [](const std::string& bytes) {
+    if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return decodeDepthPng(bytes);
+    throw CodecError("it is no PNG file");
+  });
+}
+
+}  // namespace sks

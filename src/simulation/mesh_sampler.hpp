@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include <sks_detector/simulation/training_views.hpp>
+
+#include "io/dataset.hpp"
+
+namespace sks {
+
+/// What trainingSamples() needs to train from meshes: files, or `builtin:` and a name.
+/// @param warn gets what is odd about a mesh, in words
+MeshSampler meshSampler(const MeshTraining& training, std::function<void(const std::string&)> warn);
+
+}  // namespace sks
