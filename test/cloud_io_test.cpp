@@ -317,6 +317,16 @@ TEST_F(CloudIo, TruncatedBinaryPlyIsRefused) {
 }
 
 /// Whatever a bit flip does to a cloud, reading it ends with a cloud or an Error.
+TEST_F(CloudIo, ACloudOfNothingButPointsIsWritten) {
+  sks::Cloud cloud;
+  cloud.points = randomCloud(6, 1, false).points;
+  sks::writeCloud(path_, cloud);
+  const sks::Cloud back = sks::readCloud(path_);
+  EXPECT_EQ(back.width, 6u);
+  EXPECT_EQ(back.height, 1u);
+  EXPECT_EQ(back.points, cloud.points);
+}
+
 TEST_F(CloudIo, DamagedFilesDoNotCrash) {
   const std::string files[] = {
       pcdHeader("x y z rgb", "4 4 4 4", "F F F U", 2, 2, "binary") + std::string(64, 'a'),

@@ -35,7 +35,7 @@ Codebook toys() {
     values.insert(values.end(), shot_size, float(i));
   }
   codebook.descriptors = DescriptorMatrix(std::move(values), shot_size);
-  codebook.checksum = 5;
+  codebook.checksum.set(5);
   return codebook;
 }
 
@@ -55,7 +55,7 @@ TEST(WithoutObject, KeepsAllOfTheOthers) {
     EXPECT_EQ(rest->objectOf(rest->words[i]), kept[i] % 3 == 0 ? "mario" : "duck");
   }
   EXPECT_EQ(codebookFault(*rest), "");
-  EXPECT_EQ(rest->checksum, 0u);
+  EXPECT_FALSE(rest->checksum.get());
 }
 
 TEST(WithoutObject, LeavesNothingOfTheLastOne) {

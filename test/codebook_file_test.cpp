@@ -110,7 +110,7 @@ TEST_F(CodebookFile, RoundTripKeepsEverything) {
     const sks::Codebook codebook = makeCodebook(type);
     const std::uint32_t checksum = sks::writeCodebook(path_, codebook);
     const auto back = sks::readCodebook(path_);
-    EXPECT_EQ(back->checksum, checksum);
+    EXPECT_EQ(back->checksum.get(), checksum);
     EXPECT_EQ(back->name, codebook.name);
     EXPECT_EQ(back->descriptor_type, type);
     EXPECT_EQ(sks::settingsToYaml(back->settings), sks::settingsToYaml(codebook.settings));
@@ -162,6 +162,20 @@ TEST_F(CodebookFile, ChecksumIsKnownBeforeWriting) {
   const sks::Codebook codebook = makeCodebook();
   EXPECT_EQ(sks::codebookChecksum(codebook), sks::writeCodebook(path_, codebook));
   EXPECT_EQ(sks::codebookChecksum(*sks::readCodebook(path_)), sks::codebookChecksum(codebook));
+}
+
+TEST_F(CodebookFile, ChecksumIsRememberedAndACopyMayDiffer) {
+  const sks::Codebook codebook = makeCodebook();
+  EXPECT_FALSE(codebook.checksum.get());
+  const std::uint32_t checksum = sks::codebookChecksum(codebook);
+  EXPECT_EQ(codebook.checksum.get(), checksum);
+  sks::Codebook copy = codebook;
+  EXPECT_FALSE(copy.checksum.get());
+  copy.name = "other toys";
+  EXPECT_NE(sks::codebookChecksum(copy), checksum);
+  const sks::Codebook moved = std::move(copy);
+  EXPECT_NE(moved.checksum.get(), checksum);
+  EXPECT_TRUE(moved.checksum.get());
 }
 
 TEST_F(CodebookFile, ThreadsAreNoPartOfACodebook) {

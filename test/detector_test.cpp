@@ -3,6 +3,7 @@
 #include <sks_detector/detector.hpp>
 
 #include <algorithm>
+#include <thread>
 
 #include <gmock/gmock.h>
 
@@ -193,6 +194,74 @@ TEST(Detector, IsDeterministic) {
     settings.threads = threads;
     expectSame(sks::Detector(twoObjects(), settings).detect(scene).detections, expected);
   }
+}
+
+// Several threads that use one instance at the same time get what one gets.
+TEST(Detector, IsSharedByThreads) {
+  const sks::Cloud scene = clutteredScene();
+  const sks::Cloud other = transformed(viewOf(asymmetricShape()), poseOf(25, {0, 1, 0}, {0.1f, 0, 0.2f}));
+  for (const int candidates : {80, 0}) {
+    for (const int threads : {1, 3}) {
+      sks::Settings settings;
+      settings.verification.candidates = candidates;
+      settings.threads = threads;
+      const sks::Detector detector(twoObjects(), settings);
+      const auto expected = detector.detect(scene).detections, expected_of_other = detector.detect(other).detections;
+      ASSERT_GE(expected.size(), 2u);
+      ASSERT_GE(expected_of_other.size(), 1u);
+      std::vector<std::vector<sks::Detection>> found(4 * 3);
+      std::vector<std::thread> users;
+      for (std::size_t user = 0; user < 4; ++user) {
+        users.emplace_back([&, user] {
+          for (std::size_t run = 0; run < 3; ++run) {
+            found[3 * user + run] = detector.detect((user + run) % 2 == 0 ? scene : other).detections;
+          }
+        });
+      }
+      for (std::thread& user : users) user.join();
+      for (std::size_t user = 0; user < 4; ++user) {
+        for (std::size_t run = 0; run < 3; ++run) {
+          expectSame(found[3 * user + run], (user + run) % 2 == 0 ? expected : expected_of_other);
+        }
+      }
+    }
+  }
+}
+
+TEST(Detector, TakesWhatTrainingGivesWithItsSettings) {
+  sks::Settings settings;
+  settings.detection.threshold = 0.61;
+  settings.keypoints.discard = 0.25;
+  settings.surface.normal_radius = 0.011;
+  const auto samples = std::vector<sks::TrainingSample>{sampleOf("thing", viewOf(asymmetricShape()))};
+  const sks::Detector detector(sks::train(samples, settings, "toys"));
+  EXPECT_EQ(detector.codebook().name, "toys");
+  EXPECT_EQ(detector.settings().detection.threshold, 0.61);
+  EXPECT_EQ(detector.settings().surface.normal_radius, 0.011);
+  const auto found = detector.detect(viewOf(asymmetricShape())).detections;
+  ASSERT_FALSE(found.empty());
+  EXPECT_EQ(found[0].object, "thing");
+
+  const auto shared = std::make_shared<const sks::Codebook>(sks::train(samples, settings, "toys"));
+  expectSame(sks::Detector(shared).detect(viewOf(asymmetricShape())).detections, found);
+  settings.keypoints.discard = 0;
+  EXPECT_EQ(sks::Detector(sks::train(samples, settings, "toys"), settings).settings().keypoints.discard, 0);
+}
+
+TEST(Detector, ACloudOfNothingButPointsIsEnough) {
+  const sks::Cloud whole = clutteredScene();
+  sks::Cloud unorganized = whole;
+  unorganized.width = std::uint32_t(whole.size());
+  unorganized.height = 1;
+  sks::Cloud points;
+  points.points = whole.points;
+  EXPECT_FALSE(points.organized());
+  const sks::Detector detector(twoObjects(), {});
+  const auto found = detector.detect(points).detections;
+  ASSERT_GE(found.size(), 2u);
+  expectSame(found, detector.detect(unorganized).detections);
+  const auto samples = std::vector<sks::TrainingSample>{sampleOf("scene", points)};
+  EXPECT_GT(sks::train(samples, {}, "points").words.size(), 10u);
 }
 
 TEST(Detector, CountsAndOrdersWhatItDoes) {

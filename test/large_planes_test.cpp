@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/keypoints/large_planes.hpp"
+#include <sks_detector/stages/large_planes.hpp>
 
 #include <cmath>
 

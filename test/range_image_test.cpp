@@ -23,10 +23,10 @@ TEST(RangeImage, KnowsWhatIsHiddenSeenAndSeenThrough) {
   const RangeImage image(prepared(twoWalls()), 0.01f);
   EXPECT_EQ(image.look({-0.2f, 0, 1.0f}, 0.015f).sight, Sight::at);
   EXPECT_EQ(image.look({-0.2f, 0, 1.01f}, 0.015f).sight, Sight::at);
-  EXPECT_EQ(image.look({-0.2f, 0, 1.1f}, 0.015f).sight, Sight::hidden);
+  EXPECT_EQ(image.look({-0.2f, 0, 1.1f}, 0.015f).sight, Sight::occluded);
   EXPECT_EQ(image.look({-0.2f, 0, 0.9f}, 0.015f).sight, Sight::in_front);
   EXPECT_EQ(image.look({0.1f, 0, 0.7f}, 0.015f).sight, Sight::at);
-  EXPECT_EQ(image.look({0.1f, 0, 1.0f}, 0.015f).sight, Sight::hidden);
+  EXPECT_EQ(image.look({0.1f, 0, 1.0f}, 0.015f).sight, Sight::occluded);
 }
 
 TEST(RangeImage, KnowsNothingOfWhatWasNotMeasured) {
@@ -67,7 +67,7 @@ TEST(RangeImage, DoesNotDependOnThreads) {
 TEST(RangeImage, MovesWithTheSensor) {
   const Eigen::Isometry3f T = poseOf(130, {1, 2, 3}, {3, -1, 0.5f});
   const RangeImage image(prepared(transformed(twoWalls(), T)), 0.01f);
-  EXPECT_EQ(image.look(T * Eigen::Vector3f(-0.2f, 0, 1.1f), 0.015f).sight, Sight::hidden);
+  EXPECT_EQ(image.look(T * Eigen::Vector3f(-0.2f, 0, 1.1f), 0.015f).sight, Sight::occluded);
   EXPECT_EQ(image.look(T * Eigen::Vector3f(-0.2f, 0, 0.9f), 0.015f).sight, Sight::in_front);
 }
 

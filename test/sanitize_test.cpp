@@ -164,6 +164,26 @@ TEST(Sanitize, MillimetresAreNamedWithFigureAndRemedy) {
   EXPECT_THAT(message, HasSubstr("units: mm"));
 }
 
+TEST(Sanitize, WithoutAWidthACloudIsNotOrganized) {
+  sks::Cloud cloud;
+  cloud.points = line().points;
+  for (const std::uint32_t height : {1u, 2u}) {
+    cloud.height = height;
+    EXPECT_FALSE(cloud.organized());
+    const sks::Cloud kept = sks::sanitize(cloud, {});
+    EXPECT_EQ(kept.size(), 10u);
+    EXPECT_TRUE(kept.pixels.empty());
+  }
+}
+
+TEST(Sanitize, AModelsOriginIsNoSensor) {
+  sks::SanitizeSettings settings;
+  settings.min_range = 1.5;
+  EXPECT_EQ(sks::sanitizingFor(sks::Orientation::sensor, settings).min_range, 1.5);
+  EXPECT_EQ(sks::sanitizingFor(sks::Orientation::outward, settings).min_range, 0);
+  EXPECT_EQ(sks::sanitize(line(), sks::sanitizingFor(sks::Orientation::outward, settings)).size(), 10u);
+}
+
 TEST(Sanitize, LengthsThatDoNotFitAreRefused) {
   sks::Cloud cloud = line();
   cloud.colors.resize(7);

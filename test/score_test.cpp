@@ -9,9 +9,8 @@ double scoreOfDensity(double density, double half_density = 8) {
   sks::Hypothesis hypothesis;
   hypothesis.density = density;
   sks::Settings settings;
-  settings.detection.hypotheses = sks::Hypotheses::hough;
   settings.detection.half_density = half_density;
-  return sks::score(hypothesis, settings);
+  return sks::scoreOfDensity(hypothesis, settings);
 }
 
 double scoreOfEvidence(double evidence, double half_evidence) {
@@ -19,7 +18,7 @@ double scoreOfEvidence(double evidence, double half_evidence) {
   hypothesis.evidence = evidence;
   sks::Settings settings;
   settings.verification.half_evidence = half_evidence;
-  return sks::score(hypothesis, settings);
+  return sks::scoreOfEvidence(hypothesis, settings);
 }
 
 }  // namespace

@@ -16,11 +16,12 @@ struct Rgb {
   std::uint8_t b = 0;
 };
 
-/// A point cloud as it comes from a sensor or a file, before any preparation. Row-major if organised.
+/// A point cloud as it comes from a sensor or a file, before any preparation. Row-major if organised. One with nothing
+/// but points is a whole cloud: without a width it is not organised.
 struct Cloud {
-  std::uint32_t width = 0;              ///< columns; number of points if not organised
+  std::uint32_t width = 0;              ///< columns of an organised cloud; else the number of points, or 0
   std::uint32_t height = 1;             ///< rows; 1 if not organised
-  std::vector<Eigen::Vector3f> points;  ///< width * height positions [m], sensor frame; NaN where nothing was measured
+  std::vector<Eigen::Vector3f> points;  ///< positions [m], in the frame of the cloud; NaN where nothing was measured
   std::vector<Rgb> colors;              ///< empty (no colour), or one for each point
   Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();  ///< position of the camera in the frame of the points [m]
 
@@ -29,7 +30,9 @@ struct Cloud {
   std::vector<std::uint32_t> pixels;
   std::uint32_t columns = 0;  ///< of that image
 
-  bool organized() const { return height > 1; }
+  std::uint32_t columnCount() const { return width > 0 ? width : std::uint32_t(points.size()); }
+  std::uint32_t rowCount() const { return width > 0 ? height : 1; }
+  bool organized() const { return width > 0 && height > 1; }
   bool hasColor() const { return !colors.empty(); }
   std::size_t size() const { return points.size(); }
 };

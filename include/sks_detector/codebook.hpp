@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +14,7 @@
 
 #include <sks_detector/settings.hpp>
 #include <sks_detector/stages/descriptors.hpp>
+#include <sks_detector/stages/surface.hpp>
 
 namespace sks {
 
@@ -19,6 +23,11 @@ enum class ViewKind : std::uint8_t {
   view,  ///< 2.5-D, seen from its sensor origin
   model  ///< full 3-D
 };
+
+/// Which way the normals of such a cloud point.
+constexpr Orientation orientationOf(ViewKind kind) {
+  return kind == ViewKind::model ? Orientation::outward : Orientation::sensor;
+}
 
 /// One training cloud: its frame is the model frame of the poses that its codewords lead to. Views of one object with
 /// the same `frame` are registered to each other: they speak for one pose together.
@@ -47,19 +56,53 @@ struct Codeword {
   Eigen::Matrix3f frame = Eigen::Matrix3f::Identity();  ///< local reference frame R_t; rows are the axes
 };
 
+/// What the checksum of a codebook is, once it is known: see codebookChecksum(). A copy may be changed: it does not
+/// know it. Thread-safe.
+class RememberedChecksum {
+public:
+  RememberedChecksum() = default;
+  RememberedChecksum(const RememberedChecksum& /*other*/) {}
+  RememberedChecksum(RememberedChecksum&& other) noexcept : value_(other.value_.load()) {}
+  RememberedChecksum& operator=(const RememberedChecksum& /*other*/) {
+    value_ = unknown;
+    return *this;
+  }
+  RememberedChecksum& operator=(RememberedChecksum&& other) noexcept {
+    value_ = other.value_.load();
+    return *this;
+  }
+
+  std::optional<std::uint32_t> get() const {
+    const std::uint64_t value = value_;
+    return value == unknown ? std::nullopt : std::optional<std::uint32_t>(std::uint32_t(value));
+  }
+  void set(std::uint32_t checksum) const { value_ = checksum; }
+
+private:
+  static constexpr std::uint64_t unknown = ~std::uint64_t(0);
+  mutable std::atomic<std::uint64_t> value_{unknown};
+};
+
 /// All that training leaves behind (section 3.1: every codeword is kept). Immutable once built: share it as
 /// `std::shared_ptr<const Codebook>` between threads.
 struct Codebook {
   std::string name;                                       ///< for people: the name of the data set, or as given
-  DescriptorType descriptor_type = DescriptorType::shot;  ///< what the descriptors are; never `automatic`
+  DescriptorType descriptor_type = DescriptorType::shot;  ///< what the descriptors are; `automatic` only if foreign
+  std::string own_descriptor;                             ///< name of the user's DescriptorStage; empty: SHOT or CSHOT
   Settings settings;                                      ///< what it was trained with
   std::vector<std::string> objects;                       ///< names, in order of their first training cloud
   std::vector<TrainingView> views;
   std::vector<Codeword> words;
   DescriptorMatrix descriptors;  ///< words.size() rows
-  std::uint32_t checksum = 0;    ///< CRC-32C of the file's payload, 0 where it is not known
+  RememberedChecksum checksum;   ///< for codebookChecksum()
 
   const std::string& objectOf(const Codeword& word) const { return objects[views[word.view].object]; }
+  /// "shot", "cshot" or the name of the user's DescriptorStage.
+  std::string descriptorName() const;
+  /// Values of one descriptor.
+  std::size_t descriptorSize() const;
+  /// Of any view along an axis of its box [m].
+  float largestExtent() const;
 };
 
 }  // namespace sks

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -12,16 +13,20 @@ namespace sks {
 constexpr std::uint32_t codebook_file_version = 1;
 
 /// Writes a codebook whole or not at all (temporary name, sync, rename); see docs/codebook_file.md.
-/// @return the checksum that was stored
+/// @return codebookChecksum()
 /// @throws Error(bad_file) with the path and the system's reason
 std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook);
 
-/// The checksum that writeCodebook() would store. @throws Error(bad_file) if the codebook cannot be stored
+/// By which a codebook is known: the CRC-32C of the payload of its file, whether it has been written or not. Computed
+/// once for each codebook and then remembered, so do not change a codebook afterwards. May be called by several
+/// threads.
+/// @throws Error(bad_file) if the codebook cannot be stored
 std::uint32_t codebookChecksum(const Codebook& codebook);
 
 /// Reads a codebook file whole, so that whoever writes to it later changes nothing; descriptors stay where they were
 /// read to, as long as the result lives. Checks magic, version, checksum, FlatBuffers verifier and every index and
 /// length before anything is used.
+/// @return not null; what Detector takes
 /// @throws Error(bad_file) naming the path and what is wrong: missing, foreign, truncated, damaged, newer
 std::shared_ptr<const Codebook> readCodebook(const std::string& path);
 

@@ -38,7 +38,7 @@ struct StageCounts {
               hypotheses = 0;
 };
 
-/// What went by on the way to the detections, in the frame of the cloud, for people who look inside.
+/// Intermediate results of a detection, in the frame of the cloud, for people who look inside.
 struct Inspection {
   std::vector<Eigen::Vector3f> keypoints;   ///< the kept ones [m]
   std::vector<Eigen::Vector3f> votes;       ///< where votes fell in the Hough spaces [m]

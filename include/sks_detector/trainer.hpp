@@ -13,6 +13,7 @@
 #include <sks_detector/codebook.hpp>
 #include <sks_detector/progress.hpp>
 #include <sks_detector/settings.hpp>
+#include <sks_detector/stages/stages.hpp>
 
 namespace sks {
 
@@ -26,12 +27,15 @@ struct TrainingSample {
   std::optional<Eigen::AlignedBox3f> box;  ///< of the whole object [m]; else the box of the cloud is taken
 };
 
-/// Section 3.1: normals, grid keypoints without selection, descriptors, one codeword each.
+/// Section 3.1: normals, grid keypoints without selection, descriptors, one codeword each. Deterministic, for any
+/// number of threads; may be called from several threads at once.
 /// @param name of the codebook
 /// @param progress called before each sample, and once at the end
-/// @throws Error(bad_usage) for no samples or invalid settings; Error(bad_data) naming the sample whose cloud is
-///         unusable or yields no codeword; Error(cancelled)
+/// @param stages in place of this package's own; the verifier is not used
+/// @return what Detector and writeCodebook() take
+/// @throws Error(bad_usage) for no samples, invalid settings or a descriptor stage whose name cannot be stored;
+///         Error(bad_data) naming the sample whose cloud is unusable or yields no codeword; Error(cancelled)
 Codebook train(const std::vector<TrainingSample>& samples, const Settings& settings, const std::string& name,
-               const Progress& progress = {});
+               const Progress& progress = {}, const Stages& stages = {});
 
 }  // namespace sks

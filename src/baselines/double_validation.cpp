@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "baselines/hypotheses.hpp"
+#include "core/verification/refinement.hpp"
 
 namespace sks::baselines {
 namespace {
 
-/// The share of the stored surface facing the sensor that lies within `distance` of scene points.
-double supportedShare(const TrainingView& view, const Surface& scene, const Eigen::Isometry3d& T_scene_model,
-                      double distance) {
+/// The fraction of the stored surface facing the sensor that lies within `distance` of scene points.
+double supportedFraction(const TrainingView& view, const Surface& scene, const Eigen::Isometry3d& T_scene_model,
+                         double distance) {
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   std::size_t facing = 0, supported = 0;
   std::vector<PointGrid::Run> runs;
@@ -29,24 +30,24 @@ HypothesisCheck doubleValidation(std::shared_ptr<const Codebook> codebook, const
   first.end_distance = second.start_distance = 0.5 * (refinement.start_distance + refinement.end_distance);
   first.iterations = (refinement.iterations + 1) / 2;
   second.iterations = refinement.iterations - first.iterations;
-  return [=](std::vector<RatedHypothesis> hypotheses, const Surface& scene) {
-    std::vector<double> shares(hypotheses.size(), 0);
+  return [=](std::vector<Hypothesis> hypotheses, const Surface& scene) {
+    std::vector<double> fractions(hypotheses.size(), 0);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
     for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-      Hypothesis& hypothesis = hypotheses[i].hypothesis;
-      const auto share = [&] {
-        return supportedShare(codebook->views[hypothesis.view], scene, hypothesis.T_scene_model,
-                              settings.support_distance);
+      Hypothesis& hypothesis = hypotheses[i];
+      const auto fraction = [&] {
+        return supportedFraction(codebook->views[hypothesis.view], scene, hypothesis.T_scene_model,
+                                 settings.support_distance);
       };
-      refine(*codebook, scene, first, hypothesis);
-      if (share() < settings.first_support) continue;
-      refine(*codebook, scene, second, hypothesis);
-      if (share() >= settings.second_support) shares[i] = share();
+      refine(hypothesis, *codebook, scene, first);
+      if (fraction() < settings.first_support) continue;
+      refine(hypothesis, *codebook, scene, second);
+      if (fraction() >= settings.second_support) fractions[i] = fraction();
     }
-    std::vector<RatedHypothesis> valid;
+    std::vector<Hypothesis> valid;
     for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-      if (shares[i] <= 0) continue;
-      hypotheses[i].support *= shares[i];
+      if (fractions[i] <= 0) continue;
+      hypotheses[i].density *= fractions[i];
       valid.push_back(std::move(hypotheses[i]));
     }
     return valid;

@@ -10,8 +10,7 @@
 #include <pcl/point_types.h>
 
 #include <sks_detector/codebook.hpp>
-
-#include "core/pipeline/scene_description.hpp"
+#include <sks_detector/stages/scene.hpp>
 
 namespace sks::baselines {
 

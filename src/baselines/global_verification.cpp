@@ -2,6 +2,7 @@
 #include "baselines/hypotheses.hpp"
 #include "baselines/pcl_global_verification.hpp"
 #include "core/verification/range_image.hpp"
+#include "core/verification/refinement.hpp"
 
 namespace sks::baselines {
 namespace {
@@ -28,7 +29,7 @@ PlacedSurface placedSurface(const TrainingView& view, const Hypothesis& hypothes
     const HvPoint point = toPcl(p - scene.sensor_origin, n);
     placed.complete->push_back(point);
     const bool faces = n.dot(scene.sensor_origin - p) > 0;
-    if (faces && range_image.look(p, float(occlusion_distance)).sight != Sight::hidden)
+    if (faces && range_image.look(p, float(occlusion_distance)).sight != Sight::occluded)
       placed.visible->push_back(point);
   }
   return placed;
@@ -58,18 +59,18 @@ void configure(pcl::GlobalHypothesesVerification<HvPoint, HvPoint>& verification
 
 HypothesisCheck globalVerification(const std::shared_ptr<const Codebook>& codebook, const AldomaSettings& settings,
                                    const RefinementSettings& refinement, int threads) {
-  return [=](std::vector<RatedHypothesis> hypotheses, const Surface& scene) {
+  return [=](std::vector<Hypothesis> hypotheses, const Surface& scene) {
     if (hypotheses.size() > std::size_t(settings.hypotheses)) hypotheses.resize(std::size_t(settings.hypotheses));
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
-    for (std::size_t i = 0; i < hypotheses.size(); ++i) refine(*codebook, scene, refinement, hypotheses[i].hypothesis);
-    hypotheses = withoutDuplicates(std::move(hypotheses), settings.inlier_distance);  // what ICP took to one place
+    for (std::size_t i = 0; i < hypotheses.size(); ++i) refine(hypotheses[i], *codebook, scene, refinement);
+    hypotheses = withoutDuplicates(std::move(hypotheses), settings.inlier_distance);  // what ICP took to one position
     if (hypotheses.empty()) return hypotheses;
 
     std::vector<PlacedSurface> placed(hypotheses.size());
     const RangeImage range_image(scene, float(settings.normal_radius));
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
     for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-      const Hypothesis& hypothesis = hypotheses[i].hypothesis;
+      const Hypothesis& hypothesis = hypotheses[i];
       placed[i] =
           placedSurface(codebook->views[hypothesis.view], hypothesis, scene, range_image, settings.occlusion_distance);
     }
@@ -90,7 +91,7 @@ HypothesisCheck globalVerification(const std::shared_ptr<const Codebook>& codebo
     verification.verify();
     std::vector<bool> accepted;
     verification.getMask(accepted);
-    std::vector<RatedHypothesis> kept;
+    std::vector<Hypothesis> kept;
     for (std::size_t i = 0; i < hypotheses.size(); ++i) {
       if (accepted[i]) kept.push_back(std::move(hypotheses[i]));
     }

@@ -12,9 +12,9 @@ StrengthFunction groupStrengths(std::shared_ptr<const Codebook> codebook, Groupi
       [codebook = std::move(codebook), models, grouping = std::move(grouping), threads](const SceneDescription& scene) {
         const auto hypotheses = groupedHypotheses(*codebook, models, scene, grouping, threads);
         ObjectStrengths strengths{std::vector<double>(codebook->objects.size(), 0), hypotheses.size()};
-        for (const auto& [hypothesis, support] : hypotheses) {
+        for (const Hypothesis& hypothesis : hypotheses) {
           double& strength = strengths.of_object[hypothesis.object];
-          strength = std::max(strength, support);
+          strength = std::max(strength, hypothesis.density);
         }
         return strengths;
       };

@@ -32,8 +32,8 @@ pcl::Correspondences inliersOf(const pcl::Correspondences& correspondences, cons
                                const FramedKeypoints& scene, const Eigen::Isometry3d& T_scene_model, double distance) {
   pcl::Correspondences inliers;
   for (const pcl::Correspondence& pair : correspondences) {
-    const Eigen::Vector3d place = T_scene_model * model.keypoints.position(pair.index_query);
-    if ((place - scene.position(pair.index_match)).norm() <= distance) inliers.push_back(pair);
+    const Eigen::Vector3d mapped = T_scene_model * model.keypoints.position(pair.index_query);
+    if ((mapped - scene.position(pair.index_match)).norm() <= distance) inliers.push_back(pair);
   }
   return inliers;
 }

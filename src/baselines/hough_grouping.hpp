@@ -8,7 +8,7 @@ namespace sks::baselines {
 /// What PCL's Hough space is set to.
 struct HoughParameters {
   double bin_size;   ///< [m]; also how far RANSAC's inliers may lie apart
-  double threshold;  ///< votes of a maximum; negative: the share of the highest bin's votes
+  double threshold;  ///< votes of a maximum; negative: the fraction of the highest bin's votes
   bool interpolate;
   bool weigh;
 };

@@ -13,22 +13,19 @@
 
 namespace sks::baselines {
 
-/// A hypothesis and what speaks for it; the score grows with that.
-struct RatedHypothesis {
-  Hypothesis hypothesis;
-  double support = 0;  ///< inliers, as far as verification confirms them
-};
+// What supports a hypothesis, and what its score grows with, is its density: its inliers, as far as verification
+// confirms them.
 
 /// Removes hypotheses, refines and rates those that it leaves.
-using HypothesisCheck = std::function<std::vector<RatedHypothesis>(std::vector<RatedHypothesis>, const Surface& scene)>;
+using HypothesisCheck = std::function<std::vector<Hypothesis>(std::vector<Hypothesis>, const Surface& scene)>;
 
 /// The groups of all models, those with most inliers first; ties in order of the models. Inliers are indices of
 /// matches, which are in the order of the descriptors.
-std::vector<RatedHypothesis> groupedHypotheses(const Codebook& codebook, const FramedModels& models,
-                                               const SceneDescription& scene, const Grouping& grouping, int threads);
+std::vector<Hypothesis> groupedHypotheses(const Codebook& codebook, const FramedModels& models,
+                                          const SceneDescription& scene, const Grouping& grouping, int threads);
 
 /// Of those for one object that lie nearer to each other than `distance` the best rated. @return best first
-std::vector<RatedHypothesis> withoutDuplicates(std::vector<RatedHypothesis> hypotheses, double distance);
+std::vector<Hypothesis> withoutDuplicates(std::vector<Hypothesis> hypotheses, double distance);
 
 /// ICP and PCL's global hypothesis verification.
 HypothesisCheck globalVerification(const std::shared_ptr<const Codebook>& codebook, const AldomaSettings& settings,
@@ -37,8 +34,5 @@ HypothesisCheck globalVerification(const std::shared_ptr<const Codebook>& codebo
 /// ICP and validation, twice.
 HypothesisCheck doubleValidation(std::shared_ptr<const Codebook> codebook, const ZhouSettings& settings,
                                  const RefinementSettings& refinement, int threads);
-
-/// Moves a hypothesis to where ICP of its view's stored surface takes it.
-void refine(const Codebook& codebook, const Surface& scene, const RefinementSettings& settings, Hypothesis& hypothesis);
 
 }  // namespace sks::baselines

@@ -6,8 +6,11 @@
 
 #include <pcl/console/print.h>
 
+#include "baselines/grouping_verifier.hpp"
+#include "baselines/nearest_matches.hpp"
 #include "baselines/object_strengths.hpp"
 #include "baselines/scene_detector.hpp"
+#include "core/pipeline/default_stages.hpp"
 
 namespace sks::baselines {
 namespace {
@@ -66,9 +69,10 @@ const Method* findMethod(const std::string& name) {
 DetectFunction makeDetect(const std::string& name, const std::shared_ptr<const Codebook>& codebook,
                           const Settings& settings, const MethodSettings& own) {
   silencePcl();
-  const auto detector =
-      std::make_shared<const SceneDetector>(codebook, settings, groupingOf(name, settings, own),
-                                            checkOf(name, codebook, settings, own), halfSupport(name, own));
+  Stages stages;
+  stages.verifier = std::make_shared<const GroupingVerifier>(
+      *codebook, groupingOf(name, settings, own), checkOf(name, codebook, settings, own), halfSupport(name, own));
+  const auto detector = std::make_shared<const SceneDetector>(codebook, settings, stages);
   return [=](const Cloud& cloud) { return detector->detect(cloud); };
 }
 
@@ -80,17 +84,16 @@ ClassifyFunction makeClassify(const std::string& name, const std::shared_ptr<con
     return [=](const Cloud& cloud) { return classifier->classify(cloud, kind); };
   }
   silencePcl();
-  const Settings used = settingsFor(*codebook, settings);
-  MatchFunction match = [](const DescriptorMatrix&, int) { return std::vector<Match>(); };
+  SceneDescriber describer{codebook, settingsFor(*codebook, settings), completed({}, *codebook), {}};
   StrengthFunction strengths;
   if (name == "knopp") {
-    strengths = shapeModelStrengths(*codebook, used, own.knopp);
+    describer.match = [](const DescriptorMatrix&, int) { return std::vector<Match>(); };
+    strengths = shapeModelStrengths(*codebook, describer.settings, own.knopp);
   } else {
-    const auto matcher = std::make_shared<const Matcher>(codebook->descriptors);
-    match = [matcher](const DescriptorMatrix& d, int threads) { return matcher->match(d, threads); };
-    strengths = groupStrengths(codebook, groupingOf(name, settings, own), threadCount(used));
+    describer.match = nearestMatches(*codebook);
+    strengths = groupStrengths(codebook, groupingOf(name, settings, own), threadCount(describer.settings));
   }
-  return [=](const Cloud& cloud) { return classifyIsolated(cloud, kind, *codebook, match, used, strengths); };
+  return [=](const Cloud& cloud) { return classifyIsolated(cloud, kind, describer, strengths); };
 }
 
 }  // namespace sks::baselines

@@ -69,10 +69,9 @@ private:
 
   Surface prepare(const std::string& path, ViewKind kind) const {
     try {
-      SanitizeSettings sanitizing = study_.settings.sanitize;
-      if (kind == ViewKind::model) sanitizing.min_range = 0;  // a model's origin is no sensor
-      const Cloud cloud = sanitize(readCloud(path, data_set_.scale), sanitizing);
-      const Orientation orientation = kind == ViewKind::model ? Orientation::outward : Orientation::sensor;
+      const Orientation orientation = orientationOf(kind);
+      const Cloud cloud =
+          sanitize(readCloud(path, data_set_.scale), sanitizingFor(orientation, study_.settings.sanitize));
       return prepareSurface(cloud, study_.settings.surface, orientation, threads_);
     } catch (const Error& error) {
       const bool named = std::string(error.what()).find(path) != std::string::npos;
@@ -91,11 +90,11 @@ private:
     Settings settings = study_.settings;
     settings.keypoints = kind;
     Stopwatch stopwatch;
-    Keypoints keypoints = selectedKeypoints(surface, settings, threads_);
+    Keypoints keypoints = selectedKeypoints(surface, settings);
     if (seconds == nullptr) return keypoints;
     std::vector<double> times{stopwatch.lap()};
     while (times.size() < timed_runs && times.front() < long_run) {
-      selectedKeypoints(surface, settings, threads_);
+      selectedKeypoints(surface, settings);
       times.push_back(stopwatch.lap());
     }
     *seconds = *percentile(times, 0.5);

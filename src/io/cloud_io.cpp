@@ -71,7 +71,8 @@ void writeCloud(const std::string& path, const Cloud& cloud) {
   std::string header = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n";
   header += color ? "FIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
                   : "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\n";
-  header += "WIDTH " + std::to_string(cloud.width) + "\nHEIGHT " + std::to_string(cloud.height) + "\nVIEWPOINT ";
+  header +=
+      "WIDTH " + std::to_string(cloud.columnCount()) + "\nHEIGHT " + std::to_string(cloud.rowCount()) + "\nVIEWPOINT ";
   for (int axis = 0; axis < 3; ++axis) header += toText(double(cloud.sensor_origin[axis])) + " ";
   header += "1 0 0 0\nPOINTS " + std::to_string(cloud.size()) + "\nDATA binary\n";
 

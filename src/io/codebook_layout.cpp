@@ -7,6 +7,7 @@
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/error.hpp>
 
+#include "core/settings/value_text.hpp"
 #include "io/crc32c.hpp"
 
 namespace sks {
@@ -84,8 +85,20 @@ CodebookHeader checkCodebookHeader(const std::uint8_t* file, std::size_t size) {
   return header;
 }
 
+std::string descriptorText(const Codebook& codebook) {
+  return codebook.own_descriptor.empty() ? toText(codebook.descriptor_type) : own_prefix + codebook.own_descriptor;
+}
+
+bool readDescriptorText(const std::string& text, Codebook& codebook) {
+  const std::size_t prefix = std::strlen(own_prefix);
+  if (text.compare(0, prefix, own_prefix) != 0) return fromText(text, codebook.descriptor_type);
+  codebook.descriptor_type = DescriptorType::automatic;
+  codebook.own_descriptor = text.substr(prefix);
+  return !codebook.own_descriptor.empty();
+}
+
 std::string codebookFault(const Codebook& codebook) {
-  const std::size_t columns = descriptorSize(codebook.descriptor_type);
+  const std::size_t columns = codebook.descriptorSize();
   const DescriptorMatrix& descriptors = codebook.descriptors;
   if (columns == 0) return "its descriptor type is not decided";
   if (descriptors.rows() != codebook.words.size() || (descriptors.rows() > 0 && descriptors.cols() != columns)) {

@@ -21,6 +21,9 @@ constexpr std::uint64_t largest_metadata = 2147483646;
 /// Bytes of the name of a model frame at most: views share it in the file, but not in memory.
 constexpr std::size_t longest_frame = 4096;
 
+/// Marks the names of descriptors of a user's own.
+constexpr const char* own_prefix = "own:";
+
 /// The first 64 bytes as they lie in the file. All versions of the format share them.
 struct CodebookHeader {
   char magic[8] = {'S', 'K', 'S', 'C', 'O', 'D', 'E', 'B'};
@@ -41,6 +44,12 @@ static_assert(sizeof(CodebookHeader) == 64, "the header must have no padding");
 /// Checks magic, checksums, version and the offsets of the sections, in the order that gives the best message.
 /// @throws Error(bad_file) saying what is wrong and what helps, without the file's name
 CodebookHeader checkCodebookHeader(const std::uint8_t* file, std::size_t size);
+
+/// What the file says of the descriptors: shot, cshot, or own:NAME.
+std::string descriptorText(const Codebook& codebook);
+
+/// Takes it over from a file. @return false if it is none of these
+bool readDescriptorText(const std::string& text, Codebook& codebook);
 
 /// Why the parts of a codebook do not fit together (an index or count out of range, a number that is not finite);
 /// empty if they do. The descriptors themselves are not looked at.

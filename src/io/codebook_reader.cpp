@@ -101,8 +101,8 @@ std::shared_ptr<const Codebook> read(const std::shared_ptr<const FileContent>& f
   const auto codebook = std::make_shared<Codebook>();
   codebook->name = from.name()->str();
   const std::string type = from.descriptor_type()->str();
-  if (!fromText(type, codebook->descriptor_type) ||
-      descriptorSize(codebook->descriptor_type) != from.descriptor_size()) {
+  if (!readDescriptorText(type, *codebook) ||
+      (codebook->own_descriptor.empty() && codebook->descriptorSize() != from.descriptor_size())) {
     fail("it holds descriptors of the unknown type '" + type + "' with " + std::to_string(from.descriptor_size()) +
          " bins: update sks_detector");
   }
@@ -113,7 +113,7 @@ std::shared_ptr<const Codebook> read(const std::shared_ptr<const FileContent>& f
   codebook->words.reserve(from.words()->size());
   for (const auto* word : *from.words()) codebook->words.push_back(fromFormat(*word));
   codebook->descriptors = descriptorsOf(file, header, from.descriptor_size());
-  codebook->checksum = header.payload_checksum;
+  codebook->checksum.set(header.payload_checksum);
   const std::string fault = codebookFault(*codebook);
   if (!fault.empty()) fail(fault + "; train it again");
   return codebook;

@@ -58,7 +58,7 @@ Settings portable(Settings settings) {
 
 void build(flatbuffers::FlatBufferBuilder& builder, const Codebook& codebook) {
   const auto name = builder.CreateString(codebook.name);
-  const auto type = builder.CreateString(toText(codebook.descriptor_type));
+  const auto type = builder.CreateString(descriptorText(codebook));
   const auto settings = builder.CreateString(settingsToYaml(portable(codebook.settings)));
   const auto objects = builder.CreateVectorOfStrings(codebook.objects);
   std::vector<Offset<format::View>> views;
@@ -71,7 +71,7 @@ void build(flatbuffers::FlatBufferBuilder& builder, const Codebook& codebook) {
   }
   const auto view_vector = builder.CreateVector(views);
   const auto word_vector = builder.CreateVectorOfStructs(words);
-  const auto columns = std::uint32_t(descriptorSize(codebook.descriptor_type));
+  const auto columns = std::uint32_t(codebook.descriptorSize());
   format::FinishCodebookBuffer(
       builder, format::CreateCodebook(builder, name, type, columns, settings, objects, view_vector, word_vector));
 }
@@ -117,7 +117,8 @@ FileParts makeParts(const Codebook& codebook, const std::string& path) {
 }  // namespace
 
 std::uint32_t codebookChecksum(const Codebook& codebook) {
-  return makeParts(codebook, codebook.name).header.payload_checksum;
+  if (!codebook.checksum.get()) codebook.checksum.set(makeParts(codebook, codebook.name).header.payload_checksum);
+  return *codebook.checksum.get();
 }
 
 std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook) {
@@ -128,6 +129,7 @@ std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook) {
   file.write(parts.padding.data(), parts.padding.size());
   file.write(codebook.descriptors.data(), parts.header.descriptors_size);
   file.commit();
+  codebook.checksum.set(parts.header.payload_checksum);
   return parts.header.payload_checksum;
 }
 

@@ -57,11 +57,11 @@ sks::Cloud toCloud(const sensor_msgs::PointCloud2& message) {
 sensor_msgs::PointCloud2 toMessage(const sks::Cloud& cloud, const std_msgs::Header& header) {
   sensor_msgs::PointCloud2 message;
   message.header = header;
-  message.width = cloud.width;
-  message.height = cloud.height;
+  message.width = cloud.columnCount();
+  message.height = cloud.rowCount();
   for (const char* axis : {"x", "y", "z"}) addField(message, axis);
   if (cloud.hasColor()) addField(message, "rgb");
-  message.row_step = message.point_step * cloud.width;
+  message.row_step = message.point_step * message.width;
   message.is_dense = std::all_of(cloud.points.begin(), cloud.points.end(),
                                  [](const Eigen::Vector3f& point) { return point.allFinite(); });
   message.data.resize(cloud.size() * message.point_step);

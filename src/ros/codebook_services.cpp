@@ -18,13 +18,6 @@ namespace {
 using sks::Error;
 using sks::ErrorCode;
 
-/// Null if nothing is left.
-std::shared_ptr<const sks::Codebook> remainder(const sks::Codebook& codebook, const std::string& object) {
-  const auto rest = sks::withoutObject(codebook, object);
-  if (rest) rest->checksum = sks::codebookChecksum(*rest);
-  return rest;
-}
-
 bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -75,7 +68,7 @@ void CodebookServices::removeObject(const RemoveObject::Request& request, Remove
                 "there is no object '" + request.object + "' in the codebook or among the captured views; " + hint);
   }
   // what may fail comes before what cannot be undone
-  const auto rest = is_trained ? remainder(detector->codebook(), request.object) : nullptr;
+  const auto rest = is_trained ? sks::withoutObject(detector->codebook(), request.object) : nullptr;
   response.views = std::uint32_t(context_.captured.remove(request.object));
   if (is_trained) {
     context_.slot.setCodebook(rest, "");

@@ -3,6 +3,8 @@
 
 #include <cstdio>
 
+#include <sks_detector/codebook_file.hpp>
+
 namespace sks_detector {
 
 sks::Settings withBound(sks::Settings settings, const sks::Settings& bound) {
@@ -14,7 +16,7 @@ sks::Settings withBound(sks::Settings settings, const sks::Settings& bound) {
 
 std::string nameWithChecksum(const sks::Codebook& codebook) {
   char checksum[16];
-  std::snprintf(checksum, sizeof(checksum), "%08x", codebook.checksum);
+  std::snprintf(checksum, sizeof(checksum), "%08x", sks::codebookChecksum(codebook));
   return codebook.name + " (" + checksum + ")";
 }
 

@@ -50,7 +50,8 @@ void ServiceContext::checkOverwriting(const std::string& path, bool overwrite, c
   } catch (const sks::Error&) {
     refuse("is not a codebook that this program can read");
   }
-  if (!same || old->checksum != same->checksum) refuse("holds the codebook " + nameWithChecksum(*old));
+  if (!same || sks::codebookChecksum(*old) != sks::codebookChecksum(*same))
+    refuse("holds the codebook " + nameWithChecksum(*old));
 }
 
 void ServiceContext::updateStatus() {

@@ -49,9 +49,9 @@ void TrainingServices::work(const Train::Request& request, const sks::Progress& 
   for (const std::string& warning : set.warnings) ROS_WARN_STREAM(warning);
 
   const std::string name = request.name.empty() ? set.name : request.name;
-  const auto codebook = std::make_shared<sks::Codebook>(sks::train(set.samples, settings, name, progress));
+  const auto codebook = std::make_shared<const sks::Codebook>(sks::train(set.samples, settings, name, progress));
   const std::size_t views = codebook->views.size();
-  codebook->checksum = output.empty() ? sks::codebookChecksum(*codebook) : sks::writeCodebook(output, *codebook);
+  if (!output.empty()) sks::writeCodebook(output, *codebook);
   sks::report(progress, {"sorting the codewords", "", views, views});
   {
     const std::lock_guard<std::mutex> lock(context_.codebook_change);

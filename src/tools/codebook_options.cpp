@@ -32,8 +32,8 @@ std::shared_ptr<const Codebook> CodebookOptions::train(const DataSet& data_set, 
                 "'" + data_set.file + "' has no training clouds; give a codebook: --codebook FILE");
   }
   const std::vector<TrainingSample> samples = trainingSamples(data_set, mesh_views_.sampler());
-  auto codebook = std::make_shared<Codebook>(sks::train(samples, settings, data_set.name, progress));
-  if (!save_.empty()) codebook->checksum = writeCodebook(save_, *codebook);
+  auto codebook = std::make_shared<const Codebook>(sks::train(samples, settings, data_set.name, progress));
+  if (!save_.empty()) writeCodebook(save_, *codebook);
   return codebook;
 }
 

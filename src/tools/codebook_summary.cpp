@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <vector>
 
+#include <sks_detector/codebook_file.hpp>
+
 #include "core/settings/value_text.hpp"
 #include "tools/settings_json.hpp"
 #include "tools/table.hpp"
@@ -47,7 +49,7 @@ std::string codebookTable(const std::string& path, const Codebook& codebook) {
          fixed(object.largest.x(), 3) + " x " + fixed(object.largest.y(), 3) + " x " + fixed(object.largest.z(), 3)});
   }
   table.add({"all", std::to_string(codebook.views.size()), std::to_string(codebook.words.size()), ""});
-  return path + ": codebook '" + codebook.name + "', " + toText(codebook.descriptor_type) + ", checksum " +
+  return path + ": codebook '" + codebook.name + "', " + codebook.descriptorName() + ", checksum " +
          checksumText(codebook) + ", " + fixed(double(fileSize(path)) / 1e6, 1) + " MB\n" + table.text();
 }
 
@@ -65,8 +67,8 @@ nlohmann::json codebookJson(const std::string& path, const Codebook& codebook) {
           {"name", codebook.name},
           {"checksum", checksumText(codebook)},
           {"bytes", fileSize(path)},
-          {"descriptor_type", toText(codebook.descriptor_type)},
-          {"descriptor_size", descriptorSize(codebook.descriptor_type)},
+          {"descriptor_type", codebook.descriptorName()},
+          {"descriptor_size", codebook.descriptorSize()},
           {"training_clouds", codebook.views.size()},
           {"codewords", codebook.words.size()},
           {"objects", list},
@@ -75,7 +77,7 @@ nlohmann::json codebookJson(const std::string& path, const Codebook& codebook) {
 
 std::string checksumText(const Codebook& codebook) {
   char text[9];
-  std::snprintf(text, sizeof(text), "%08x", codebook.checksum);
+  std::snprintf(text, sizeof(text), "%08x", codebookChecksum(codebook));
   return text;
 }
 

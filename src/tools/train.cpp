@@ -53,10 +53,10 @@ void run(const Options& options) {
 
   Stopwatch stopwatch;
   ProgressBar bar;
-  Codebook codebook = train(trainingSamples(data_set, options.mesh_views.sampler()), settings,
-                            options.name.empty() ? data_set.name : options.name, bar.callback());
+  const Codebook codebook = train(trainingSamples(data_set, options.mesh_views.sampler()), settings,
+                                  options.name.empty() ? data_set.name : options.name, bar.callback());
   bar.clear();
-  codebook.checksum = writeCodebook(options.output, codebook);
+  writeCodebook(options.output, codebook);
   const double seconds = stopwatch.lap();
 
   nlohmann::json json = codebookJson(options.output, codebook);

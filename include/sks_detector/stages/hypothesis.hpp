@@ -8,7 +8,7 @@
 
 namespace sks {
 
-/// An object at a place, with the correspondences that agree on its pose.
+/// An object at a position, with the correspondences that agree on its pose. Frame of the scene.
 struct Hypothesis {
   std::uint32_t object = 0;
   std::uint32_t view = 0;  ///< the training view whose frame T_scene_model maps; of a shared frame the most similar one

@@ -12,7 +12,7 @@ namespace sks {
 
 /// Points in the order of their neighbour search, structure of arrays.
 ///
-/// Points are sorted by row (a square column of the y-z plane along x), within a row by x. The neighbours of a place
+/// Points are sorted by row (a square column of the y-z plane along x), within a row by x. The neighbours of a position
 /// then are a few runs of consecutive points: no pointers, no tree, and every run can be read with SIMD loads.
 /// Thread-safe once built.
 class PointGrid {
@@ -67,7 +67,7 @@ public:
     float cell = 1;                    ///< edge [m]
     int count_y = 0, count_z = 0;
     std::vector<std::uint32_t> begin;  ///< first point of each row (y fastest), and one past the last
-    std::vector<float> pivots;  ///< x of every pivot_spacing-th point, by which places in a row are found; padded
+    std::vector<float> pivots;  ///< x of every pivot_spacing-th point, by which positions in a row are found; padded
 
     static constexpr std::uint32_t pivot_spacing = 16;
 

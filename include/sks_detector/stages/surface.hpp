@@ -12,7 +12,7 @@
 
 namespace sks {
 
-/// How normals are turned.
+/// Which way normals point.
 enum class Orientation {
   sensor,  ///< towards the sensor origin: scenes and views
   outward  ///< away from the inside: full models

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/matching/object_matching.hpp"
+#include "core/pipeline/default_stages.hpp"
 #include "core/pipeline/isolated_object.hpp"
 #include "core/voting/maxima.hpp"
 #include "core/voting/vote_density.hpp"
@@ -24,19 +26,22 @@ std::vector<double> voteStrengths(const Codebook& codebook, ClassBalance balance
 }  // namespace
 
 Classifier::Classifier(std::shared_ptr<const Codebook> codebook, const Settings& settings, ClassBalance balance)
-    : codebook_(std::move(codebook)),
-      settings_(settingsFor(*codebook_, settings)),
-      matcher_(*codebook_),
-      strength_(voteStrengths(*codebook_, balance)) {}
+    : strength_(voteStrengths(*codebook, balance)) {
+  const Settings used = settingsFor(*codebook, settings);
+  const double ambiguity = used.matching.ambiguity;
+  const MatchFunction match = [matcher = ObjectMatcher(*codebook), ambiguity](const DescriptorMatrix& d, int threads) {
+    return matcher.match(d, ambiguity, threads);
+  };
+  describer_ = {codebook, used, completed({}, *codebook), match};
+}
 
 Classification Classifier::classify(const Cloud& cloud, ViewKind kind) const {
-  const double ambiguity = settings_.matching.ambiguity;
-  const auto match = [&](const DescriptorMatrix& d, int threads) { return matcher_.match(d, ambiguity, threads); };
-  const auto strengths = [&](const SceneDescription& scene) {
-    const auto maxima = findAllMaxima(scene.votes, settings_, threadCount(settings_));
-    ObjectStrengths found{std::vector<double>(codebook_->objects.size(), 0), maxima.size()};
+  const auto strengths = [this](const SceneDescription& scene) {
+    const Settings& settings = describer_.settings;
+    const auto maxima = findAllMaxima(scene.votes, settings, threadCount(settings));
+    ObjectStrengths found{std::vector<double>(strength_.size(), 0), maxima.size()};
     for (std::size_t object = 0; object < found.of_object.size(); ++object) {
-      const VoteDensity density(scene.votes[object], settings_.voting.bandwidth);
+      const VoteDensity density(scene.votes[object], settings.voting.bandwidth);
       double& strongest = found.of_object[object];
       for (const ObjectMaximum& candidate : maxima) {
         if (candidate.object != object) continue;
@@ -45,7 +50,7 @@ Classification Classifier::classify(const Cloud& cloud, ViewKind kind) const {
     }
     return found;
   };
-  return classifyIsolated(cloud, kind, *codebook_, match, settings_, strengths);
+  return classifyIsolated(cloud, kind, describer_, strengths);
 }
 
 ViewKind testKind(const Codebook& codebook) {

@@ -11,7 +11,7 @@
 #include <sks_detector/detection.hpp>
 #include <sks_detector/settings.hpp>
 
-#include "core/matching/object_matching.hpp"
+#include "core/pipeline/scene_description.hpp"
 
 namespace sks {
 
@@ -19,7 +19,7 @@ namespace sks {
 struct Classification {
   struct Candidate {
     std::string object;  ///< name
-    double score = 0;    ///< strength of its best hypothesis as a share of that of all objects' best, in (0, 1]
+    double score = 0;    ///< strength of its best hypothesis as a fraction of that of all objects' best, in (0, 1]
   };
 
   std::vector<Candidate> candidates;  ///< objects with a hypothesis, strongest first; ties by name
@@ -51,9 +51,7 @@ public:
   Classification classify(const Cloud& cloud, ViewKind kind) const;
 
 private:
-  std::shared_ptr<const Codebook> codebook_;
-  Settings settings_;
-  ObjectMatcher matcher_;
+  SceneDescriber describer_;
   std::vector<double> strength_;  ///< of one vote, for each object
 };
 

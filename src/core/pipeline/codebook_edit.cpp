@@ -21,6 +21,7 @@ std::shared_ptr<Codebook> withoutObject(const Codebook& codebook, const std::str
   auto rest = std::make_shared<Codebook>();
   rest->name = codebook.name;
   rest->descriptor_type = codebook.descriptor_type;
+  rest->own_descriptor = codebook.own_descriptor;
   rest->settings = codebook.settings;
   rest->objects = codebook.objects;
   rest->objects.erase(rest->objects.begin() + removed);

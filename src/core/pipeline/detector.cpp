@@ -2,34 +2,22 @@
 #include <sks_detector/detector.hpp>
 
 #include <algorithm>
-#include <optional>
+#include <limits>
 #include <tuple>
+#include <utility>
 
 #include "core/matching/object_matching.hpp"
+#include "core/pipeline/default_stages.hpp"
 #include "core/pipeline/scene_description.hpp"
-#include "core/pipeline/stopwatch.hpp"
-#include "core/verification/refinement.hpp"
-#include "core/verification/score.hpp"
+#include "core/pipeline/stage_clock.hpp"
+#include "core/pipeline/to_detection.hpp"
+#include "core/verification/hough_verifier.hpp"
 #include "core/verification/verification.hpp"
-#include "core/voting/hough_hypotheses.hpp"
 
 namespace sks {
 namespace {
 
-Detection toDetection(const Codebook& codebook, const Hypothesis& hypothesis, const Settings& settings) {
-  Detection detection;
-  detection.object = codebook.objects[hypothesis.object];
-  detection.view = codebook.views[hypothesis.view].frameName();
-  detection.T_scene_model = hypothesis.T_scene_model;
-  detection.T_scene_box = hypothesis.T_scene_box;
-  detection.box_size = hypothesis.box_size;
-  detection.density = hypothesis.density;
-  detection.evidence = hypothesis.evidence;
-  detection.votes = hypothesis.votes;
-  detection.inliers = std::uint32_t(hypothesis.inliers.size());
-  detection.score = score(hypothesis, settings);
-  return detection;
-}
+constexpr float any_plane = std::numeric_limits<float>::infinity();
 
 Inspection inspectionOf(const SceneDescription& scene) {
   Inspection inspection{scene.keypoints.positions, {}, {}};
@@ -50,13 +38,38 @@ bool better(const Detection& a, const Detection& b) {
   return key(a) < key(b);
 }
 
+std::vector<Detection> ranked(const std::vector<Hypothesis>& hypotheses, const Codebook& codebook,
+                              const VerifierStage& verifier, const Settings& settings) {
+  std::vector<Detection> detections;
+  for (const Hypothesis& hypothesis : hypotheses) {
+    detections.push_back(toDetection(codebook, hypothesis, verifier.score(hypothesis, settings)));
+  }
+  std::sort(detections.begin(), detections.end(), better);
+  return detections;
+}
+
+std::vector<LargePlane> planesOf(const Surface& surface, const Settings& settings) {
+  return verifiesPoses(settings) ? findLargePlanes(surface, threadCount(settings)) : std::vector<LargePlane>();
+}
+
 }  // namespace
 
-Detector::Detector(std::shared_ptr<const Codebook> codebook, const Settings& settings)
+Detector::Detector(std::shared_ptr<const Codebook> codebook) : Detector(codebook, codebook->settings) {}
+
+Detector::Detector(Codebook codebook) : Detector(std::make_shared<const Codebook>(std::move(codebook))) {}
+
+Detector::Detector(Codebook codebook, const Settings& settings, const Stages& stages)
+    : Detector(std::make_shared<const Codebook>(std::move(codebook)), settings, stages) {}
+
+Detector::Detector(std::shared_ptr<const Codebook> codebook, const Settings& settings, const Stages& stages)
     : codebook_(std::move(codebook)),
       settings_(settingsFor(*codebook_, settings)),
-      matcher_(std::make_shared<ObjectMatcher>(*codebook_)),
-      verifier_(std::make_shared<Verifier>(codebook_)) {}
+      stages_(completed(stages, *codebook_)),
+      matcher_(std::make_shared<ObjectMatcher>(*codebook_)) {
+  if (stages_.verifier) return;
+  surface_verifier_ = std::make_shared<SurfaceVerifier>(codebook_);
+  hough_verifier_ = std::make_shared<HoughVerifier>();
+}
 
 Detector Detector::withSettings(const Settings& settings) const {
   Detector other = *this;
@@ -64,47 +77,46 @@ Detector Detector::withSettings(const Settings& settings) const {
   return other;
 }
 
+const VerifierStage& Detector::verifier() const {
+  if (stages_.verifier) return *stages_.verifier;
+  return verifiesPoses(settings_) ? *surface_verifier_ : *hough_verifier_;
+}
+
 DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) const {
+  using Times = StageTimes;
   const int threads = threadCount(settings_);
-  DetectionResult result;
-  StageTimes& times = result.times;
-  Stopwatch total;
-  const bool verifies = settings_.detection.hypotheses == Hypotheses::verified;
-  const double ambiguity = verifies ? settings_.matching.ambiguity : 1.0;
-  const auto match = [&](const DescriptorMatrix& d, int n) { return matcher_->match(d, ambiguity, n); };
+  const float largest_plane = skipsPlanes(settings_) ? codebook_->largestExtent() : any_plane;
+  StageClock clock;
   SceneDescription scene;
-  scene.surface = prepareScene(cloud, Orientation::sensor, *codebook_, settings_, times, result.counts);
 
-  Stopwatch stage;
-  std::optional<SceneView> view;
-  KeypointFilter filter;
-  if (verifies) view.emplace(scene.surface, settings_, threads);
-  if (verifies && settings_.keypoints.skip_planes) {
-    filter = [&](const Keypoints& k) { return keypointsOffPlanes(k, view->planes, verifier_->largestExtent()); };
-  }
-  times.verification = stage.lap();
-  describeSurface(scene, *codebook_, match, settings_, filter, times, result.counts);
-  if (inspection) *inspection = inspectionOf(scene);
+  // Section 3.1: usable points, thinned, with normals towards the sensor.
+  const Cloud usable = clock.book(&Times::sanitize, usableCloud(cloud, Orientation::sensor, *codebook_, settings_));
+  scene.surface = clock.book(&Times::normals, prepareSurface(usable, settings_.surface, Orientation::sensor, threads));
+  // Beyond the paper: tables and walls, which confirm no pose.
+  scene.planes = clock.book(&Times::verification, planesOf(scene.surface, settings_));
+  // Section 3.1, a grid of keypoints; section 4, those of highest Gaussian curvature K = kappa_1 kappa_2.
+  auto [keypoints, detected] = clock.book(
+      &Times::keypoints, selectedKeypoints(scene.surface, *stages_.keypoints, settings_, scene.planes, largest_plane));
+  scene.keypoints = std::move(keypoints);
+  // Section 3.1, descriptors with their local reference frames R_s.
+  scene.descriptors =
+      clock.book(&Times::descriptors, described(*stages_.descriptors, scene.surface, scene.keypoints, settings_));
+  // Section 3.2, the nearest codewords under chi squared.
+  scene.matches =
+      clock.book(&Times::matching, matcher_->match(scene.descriptors.values, ambiguityOf(settings_), threads));
+  // Eq. 1, R = R_s^T R_t, and eq. 2, votes for the centre: one Hough space for each object.
+  scene.votes = clock.book(&Times::voting, castVotes(*codebook_, scene.matches, scene.descriptors, scene.keypoints));
+  // Eq. 3, mean shift maxima of their density, and RANSAC; none where each vote is verified as a pose.
+  std::vector<Hypothesis> hypotheses = clock.book(&Times::voting, verifier().propose(scene, *codebook_, settings_));
+  // Beyond the paper: poses that the surface of the scene confirms.
+  hypotheses = clock.book(&Times::verification, verifier().verify(std::move(hypotheses), scene, *codebook_, settings_));
 
-  stage.lap();
-  std::vector<Hypothesis> hypotheses;
-  if (verifies) {
-    hypotheses = verifier_->findPoses(scene.votes, *view, settings_, threads);
-  } else {
-    const auto maxima = findAllMaxima(scene.votes, settings_, threads);
-    times.voting += stage.lap();
-    hypotheses = houghHypotheses(*codebook_, scene.votes, maxima, settings_);
-    if (settings_.refinement.iterations > 0) {
-      refineHypotheses(hypotheses, *codebook_, scene.surface, settings_.refinement, threads);
-    }
-  }
-  for (const Hypothesis& hypothesis : hypotheses) {
-    result.detections.push_back(toDetection(*codebook_, hypothesis, settings_));
-  }
-  std::sort(result.detections.begin(), result.detections.end(), better);
-  times.verification += stage.lap();
-  times.total = total.lap();
+  DetectionResult result;
+  result.detections = clock.book(&Times::verification, ranked(hypotheses, *codebook_, verifier(), settings_));
+  result.counts = countsOf(cloud, scene, detected);
   result.counts.hypotheses = result.detections.size();
+  if (inspection) *inspection = inspectionOf(scene);
+  result.times = clock.times();
   return result;
 }
 

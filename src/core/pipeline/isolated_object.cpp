@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
-#include "core/pipeline/stopwatch.hpp"
+#include "core/pipeline/stage_clock.hpp"
 
 namespace sks {
 namespace {
@@ -25,20 +25,16 @@ std::vector<Classification::Candidate> rankedCandidates(const std::vector<std::s
 
 }  // namespace
 
-Classification classifyIsolated(const Cloud& cloud, ViewKind kind, const Codebook& codebook, const MatchFunction& match,
-                                const Settings& settings, const StrengthFunction& strengths) {
+Classification classifyIsolated(const Cloud& cloud, ViewKind kind, const SceneDescriber& describer,
+                                const StrengthFunction& strengths) {
+  StageClock clock;
+  const auto [scene, counts] = describer.describe(cloud, orientationOf(kind), clock);
+  const ObjectStrengths found = clock.book(&StageTimes::voting, strengths(scene));
   Classification result;
-  Stopwatch total;
-  const Orientation orientation = kind == ViewKind::model ? Orientation::outward : Orientation::sensor;
-  const SceneDescription scene =
-      describeScene(cloud, orientation, codebook, match, settings, result.times, result.counts);
-
-  Stopwatch stage;
-  const ObjectStrengths found = strengths(scene);
-  result.candidates = rankedCandidates(codebook.objects, found.of_object);
+  result.candidates = rankedCandidates(describer.codebook->objects, found.of_object);
+  result.counts = counts;
   result.counts.hypotheses = found.hypotheses;
-  result.times.voting += stage.lap();
-  result.times.total = total.lap();
+  result.times = clock.times();
   return result;
 }
 

@@ -20,9 +20,8 @@ struct ObjectStrengths {
 /// May be called from several threads.
 using StrengthFunction = std::function<ObjectStrengths(const SceneDescription&)>;
 
-/// Describes a cloud and ranks the objects by their strengths; takes times and counts.
-/// @param settings of settingsFor() @throws like Classifier::classify()
-Classification classifyIsolated(const Cloud& cloud, ViewKind kind, const Codebook& codebook, const MatchFunction& match,
-                                const Settings& settings, const StrengthFunction& strengths);
+/// Describes a cloud and ranks the objects by their strengths. @throws like Classifier::classify()
+Classification classifyIsolated(const Cloud& cloud, ViewKind kind, const SceneDescriber& describer,
+                                const StrengthFunction& strengths);
 
 }  // namespace sks

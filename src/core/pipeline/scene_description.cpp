@@ -2,11 +2,13 @@
 #include "core/pipeline/scene_description.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include <sks_detector/error.hpp>
 
 #include "core/keypoints/sparse_selection.hpp"
-#include "core/pipeline/stopwatch.hpp"
+#include "core/pipeline/default_stages.hpp"
 #include "core/surface/sanitize.hpp"
 
 namespace sks {
@@ -43,63 +45,55 @@ Settings settingsFor(const Codebook& codebook, Settings settings) {
   return settings;
 }
 
-Keypoints selectedKeypoints(const Surface& surface, const Settings& settings, int threads, std::size_t* all,
-                            const KeypointFilter& filter) {
-  Keypoints keypoints = detectKeypoints(surface, settings.keypoints, threads);
-  if (all != nullptr) *all = keypoints.size();
-  const bool selects = settings.keypoints.detector == KeypointDetector::grid &&
-                       (settings.keypoints.selection != SelectionRule::rank || settings.keypoints.discard > 0);
-  if (selects || filter) measureCurvature(surface, keypoints, settings.keypoints, settings.surface, threads);
-  if (selects) keypoints = selectKeypoints(keypoints, settings.keypoints);
-  return filter ? filter(keypoints) : keypoints;
-}
-
-Surface prepareScene(const Cloud& cloud, Orientation orientation, const Codebook& codebook, const Settings& settings,
-                     StageTimes& times, StageCounts& counts) {
+Cloud usableCloud(const Cloud& cloud, Orientation orientation, const Codebook& codebook, const Settings& settings) {
   checkColor(cloud, codebook);
-  Stopwatch stage;
-  SanitizeSettings sanitizing = settings.sanitize;
-  if (orientation == Orientation::outward) sanitizing.min_range = 0;  // a model's origin is no sensor
-  Cloud sanitized = sanitize(cloud, sanitizing, nullptr, threadCount(settings));
-  if (!usesColor(codebook)) sanitized.colors.clear();
-  times.sanitize = stage.lap();
-
-  Surface surface = prepareSurface(sanitized, settings.surface, orientation, threadCount(settings));
-  times.normals = stage.lap();
-  counts.input_points = cloud.size();
-  counts.points = surface.size();
-  return surface;
+  Cloud usable = sanitize(cloud, sanitizingFor(orientation, settings.sanitize), nullptr, threadCount(settings));
+  if (!usesColor(codebook)) usable.colors.clear();
+  return usable;
 }
 
-void describeSurface(SceneDescription& scene, const Codebook& codebook, const MatchFunction& match,
-                     const Settings& settings, const KeypointFilter& filter, StageTimes& times, StageCounts& counts) {
-  const int threads = threadCount(settings);
-  Stopwatch stage;
-  scene.keypoints = selectedKeypoints(scene.surface, settings, threads, &counts.grid_keypoints, filter);
-  times.keypoints = stage.lap();
+SelectedKeypoints selectedKeypoints(const Surface& surface, const KeypointStage& stage, const Settings& settings,
+                                    const std::vector<LargePlane>& planes, float largest_plane) {
+  SelectedKeypoints selected{stage.detect(surface, settings), 0};
+  selected.detected = selected.keypoints.size();
+  selected.keypoints = stage.select(surface, std::move(selected.keypoints), settings);
+  if (planes.empty() || !std::isfinite(largest_plane)) return selected;
+  if (selected.keypoints.normals.empty()) {
+    measureCurvature(surface, selected.keypoints, settings.keypoints, settings.surface, threadCount(settings));
+  }
+  selected.keypoints = keypointsOffPlanes(selected.keypoints, planes, largest_plane);
+  return selected;
+}
 
-  scene.descriptors =
-      computeDescriptors(scene.surface, scene.keypoints, codebook.descriptor_type, settings.descriptor, threads);
-  times.descriptors = stage.lap();
+Keypoints selectedKeypoints(const Surface& surface, const Settings& settings) {
+  return selectedKeypoints(surface, ConfiguredKeypoints(), settings).keypoints;
+}
 
-  scene.matches = match(scene.descriptors.values, threads);
-  times.matching = stage.lap();
-
-  scene.votes = castVotes(codebook, scene.matches, scene.descriptors, scene.keypoints);
-  times.voting = stage.lap();
-
+StageCounts countsOf(const Cloud& cloud, const SceneDescription& scene, std::size_t detected_keypoints) {
+  StageCounts counts;
+  counts.input_points = cloud.size();
+  counts.points = scene.surface.size();
+  counts.grid_keypoints = detected_keypoints;
   counts.keypoints = scene.keypoints.size();
   counts.descriptors = scene.descriptors.keypoints.size();
   counts.votes = scene.matches.size();
+  return counts;
 }
 
-SceneDescription describeScene(const Cloud& cloud, Orientation orientation, const Codebook& codebook,
-                               const MatchFunction& match, const Settings& settings, StageTimes& times,
-                               StageCounts& counts) {
+SceneDescriber::Result SceneDescriber::describe(const Cloud& cloud, Orientation orientation, StageClock& clock) const {
+  using Times = StageTimes;
+  const int threads = threadCount(settings);
   SceneDescription scene;
-  scene.surface = prepareScene(cloud, orientation, codebook, settings, times, counts);
-  describeSurface(scene, codebook, match, settings, {}, times, counts);
-  return scene;
+  const Cloud usable = clock.book(&Times::sanitize, usableCloud(cloud, orientation, *codebook, settings));
+  scene.surface = clock.book(&Times::normals, prepareSurface(usable, settings.surface, orientation, threads));
+  auto selected = clock.book(&Times::keypoints, selectedKeypoints(scene.surface, *stages.keypoints, settings));
+  scene.keypoints = std::move(selected.keypoints);
+  scene.descriptors =
+      clock.book(&Times::descriptors, described(*stages.descriptors, scene.surface, scene.keypoints, settings));
+  scene.matches = clock.book(&Times::matching, match(scene.descriptors.values, threads));
+  scene.votes = clock.book(&Times::voting, castVotes(*codebook, scene.matches, scene.descriptors, scene.keypoints));
+  const StageCounts counts = countsOf(cloud, scene, selected.detected);
+  return {std::move(scene), counts};
 }
 
 }  // namespace sks

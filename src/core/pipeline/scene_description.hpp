@@ -2,56 +2,60 @@
 // The stages from a cloud to its votes, which all that works with a codebook has in common.
 #pragma once
 
-#include <functional>
-#include <vector>
+#include <cstddef>
+#include <limits>
 
 #include <sks_detector/cloud.hpp>
 #include <sks_detector/codebook.hpp>
 #include <sks_detector/detection.hpp>
 #include <sks_detector/settings.hpp>
-#include <sks_detector/stages/descriptors.hpp>
-#include <sks_detector/stages/keypoints.hpp>
 #include <sks_detector/stages/matching.hpp>
-#include <sks_detector/stages/surface.hpp>
-#include <sks_detector/stages/voting.hpp>
+#include <sks_detector/stages/scene.hpp>
+#include <sks_detector/stages/stages.hpp>
+
+#include "core/pipeline/stage_clock.hpp"
 
 namespace sks {
-
-/// A scene, described and matched.
-struct SceneDescription {
-  Surface surface;
-  Keypoints keypoints;  ///< those that the selection kept
-  Descriptors descriptors;
-  std::vector<Match> matches;            ///< in the order of the descriptors
-  std::vector<std::vector<Vote>> votes;  ///< one Hough space per object
-};
 
 /// `settings` where they can be used with a codebook, with the descriptor type that `auto` stands for.
 /// @throws Error(bad_usage) for invalid settings, Error(incompatible) naming keys and values that differ from what the
 ///         codebook was trained with
 Settings settingsFor(const Codebook& codebook, Settings settings);
 
-/// What else is left out of measured keypoints, after the selection.
-using KeypointFilter = std::function<Keypoints(const Keypoints&)>;
-
-/// The keypoints of a scene after the selection that the settings ask for. @param all where given: how many there were
-Keypoints selectedKeypoints(const Surface& surface, const Settings& settings, int threads, std::size_t* all = nullptr,
-                            const KeypointFilter& filter = {});
-
-/// Sanitizes a cloud and prepares its surface. @throws like describeScene()
-Surface prepareScene(const Cloud& cloud, Orientation orientation, const Codebook& codebook, const Settings& settings,
-                     StageTimes& times, StageCounts& counts);
-
-/// Selects keypoints of the scene's surface, describes them, matches and votes. @param match, settings as below
-void describeSurface(SceneDescription& scene, const Codebook& codebook, const MatchFunction& match,
-                     const Settings& settings, const KeypointFilter& filter, StageTimes& times, StageCounts& counts);
-
-/// Both: from a cloud to its votes; fills in times and counts of these stages.
-/// @param match finds the codewords of descriptors of the codebook's size
-/// @param settings of settingsFor()
+/// The points of a cloud that can be used, with colours where the codebook has some.
 /// @throws Error(bad_data) for an unusable cloud, Error(incompatible) for a cloud without colour with CSHOT
-SceneDescription describeScene(const Cloud& cloud, Orientation orientation, const Codebook& codebook,
-                               const MatchFunction& match, const Settings& settings, StageTimes& times,
-                               StageCounts& counts);
+Cloud usableCloud(const Cloud& cloud, Orientation orientation, const Codebook& codebook, const Settings& settings);
+
+struct SelectedKeypoints {
+  Keypoints keypoints;
+  std::size_t detected = 0;  ///< how many there were before the selection
+};
+
+/// Detects and selects keypoints, and leaves out those on planes.
+/// @param largest_plane keypoints on planes of larger extents are left out [m]
+SelectedKeypoints selectedKeypoints(const Surface& surface, const KeypointStage& stage, const Settings& settings,
+                                    const std::vector<LargePlane>& planes = {},
+                                    float largest_plane = std::numeric_limits<float>::infinity());
+
+/// The keypoints that the settings ask for.
+Keypoints selectedKeypoints(const Surface& surface, const Settings& settings);
+
+StageCounts countsOf(const Cloud& cloud, const SceneDescription& scene, std::size_t detected_keypoints);
+
+/// A codebook and how scenes are described and matched with it. Immutable: may be used by several threads.
+struct SceneDescriber {
+  std::shared_ptr<const Codebook> codebook;
+  Settings settings;    ///< of settingsFor()
+  Stages stages;        ///< of completed(); the verifier is not used
+  MatchFunction match;  ///< finds the codewords of descriptors
+
+  struct Result {
+    SceneDescription scene;
+    StageCounts counts;
+  };
+
+  /// From a cloud to its votes. @throws like usableCloud()
+  Result describe(const Cloud& cloud, Orientation orientation, StageClock& clock) const;
+};
 
 }  // namespace sks

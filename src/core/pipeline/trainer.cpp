@@ -7,10 +7,13 @@
 #include <new>
 
 #include "core/descriptors/shot.hpp"
+#include "core/pipeline/default_stages.hpp"
 #include "core/surface/sanitize.hpp"
 
 namespace sks {
 namespace {
+
+constexpr std::size_t longest_name = 100;  // of a descriptor stage
 
 /// Numbers that grow in place: a vector would copy them from time to time, and hold them twice meanwhile. Large blocks
 /// are moved by the kernel, page by page.
@@ -46,29 +49,50 @@ private:
   std::size_t size_ = 0, capacity_ = 0;
 };
 
+std::shared_ptr<const DescriptorStage> trainedDescriptors(const Stages& stages, DescriptorType type) {
+  if (!stages.descriptors) {
+    return std::make_shared<const ShotDescriptors>(type == DescriptorType::automatic ? DescriptorType::cshot : type);
+  }
+  const std::string name = stages.descriptors->name();
+  if (name.empty() || name.size() > longest_name || name == "shot" || name == "cshot" ||
+      stages.descriptors->size() == 0) {
+    throw Error(ErrorCode::bad_usage, "a descriptor stage needs a size and a name of 1 to " +
+                                          std::to_string(longest_name) + " characters that is not shot or cshot; '" +
+                                          name + "' of " + std::to_string(stages.descriptors->size()) +
+                                          " values is none");
+  }
+  return stages.descriptors;
+}
+
 /// Codewords under construction. Descriptors start as CSHOT under `automatic`; from the first cloud without colour on
 /// they are SHOT, and what was there is cut down to its SHOT part.
 class CodebookBuilder {
 public:
-  CodebookBuilder(const Settings& settings, const std::string& name)
+  CodebookBuilder(const Settings& settings, const std::string& name, const Stages& stages)
       : threads_(threadCount(settings)),
-        type_(settings.descriptor.type == DescriptorType::automatic ? DescriptorType::cshot
-                                                                    : settings.descriptor.type) {
+        keypoints_(stages.keypoints ? stages.keypoints : std::make_shared<const ConfiguredKeypoints>()),
+        descriptors_(trainedDescriptors(stages, settings.descriptor.type)) {
     codebook_.name = name;
     codebook_.settings = settings;
+    codebook_.descriptor_type = settings.descriptor.type;
+    if (stages.descriptors) {
+      codebook_.own_descriptor = descriptors_->name();
+      codebook_.descriptor_type = DescriptorType::automatic;
+    } else if (settings.descriptor.type == DescriptorType::automatic) {
+      codebook_.descriptor_type = DescriptorType::cshot;
+      may_drop_color_ = true;
+    }
   }
 
   void add(const TrainingSample& sample) {
     const Settings& settings = codebook_.settings;
-    SanitizeSettings sanitizing = settings.sanitize;
-    if (sample.kind == ViewKind::model) sanitizing.min_range = 0;  // a model's origin is no sensor
-    const Cloud cloud = sanitize(sample.load(), sanitizing, nullptr, threads_);
-    if (!cloud.hasColor() && settings.descriptor.type == DescriptorType::automatic) dropColor();
+    const Orientation orientation = orientationOf(sample.kind);
+    const Cloud cloud = sanitize(sample.load(), sanitizingFor(orientation, settings.sanitize), nullptr, threads_);
+    if (!cloud.hasColor() && may_drop_color_) dropColor();
 
-    const Orientation orientation = sample.kind == ViewKind::model ? Orientation::outward : Orientation::sensor;
     const Surface surface = prepareSurface(cloud, settings.surface, orientation, threads_);
-    const Keypoints keypoints = detectKeypoints(surface, settings.keypoints, threads_);
-    const Descriptors descriptors = computeDescriptors(surface, keypoints, type_, settings.descriptor, threads_);
+    const Keypoints keypoints = keypoints_->detect(surface, settings);
+    const Descriptors descriptors = described(*descriptors_, surface, keypoints, settings);
     if (descriptors.keypoints.empty()) {
       throw Error(ErrorCode::bad_data, "none of its " + std::to_string(keypoints.size()) +
                                            " keypoints has a descriptor; is surface.normal_radius (" +
@@ -81,21 +105,21 @@ public:
   }
 
   Codebook finish() {
-    codebook_.descriptor_type = type_;
-    codebook_.settings.descriptor.type = type_;
-    codebook_.descriptors = values_.release(descriptorSize(type_));
+    codebook_.settings.descriptor.type = codebook_.descriptor_type;
+    codebook_.descriptors = values_.release(descriptors_->size());
     return std::move(codebook_);
   }
 
 private:
   void dropColor() {
-    if (type_ != DescriptorType::cshot) return;
     for (std::size_t row = 0; row < codebook_.words.size(); ++row) {
       std::copy_n(values_.at(row * cshot_size), shot_size, values_.at(row * shot_size));
       normalize(values_.at(row * shot_size), shot_size);
     }
     values_.shrinkTo(codebook_.words.size() * shot_size);
-    type_ = DescriptorType::shot;
+    codebook_.descriptor_type = DescriptorType::shot;
+    descriptors_ = std::make_shared<const ShotDescriptors>(DescriptorType::shot);
+    may_drop_color_ = false;
   }
 
   void addView(const TrainingSample& sample, const Surface& surface, const Cloud& cloud) {
@@ -134,7 +158,9 @@ private:
   }
 
   int threads_;
-  DescriptorType type_;
+  std::shared_ptr<const KeypointStage> keypoints_;
+  std::shared_ptr<const DescriptorStage> descriptors_;
+  bool may_drop_color_ = false;
   Codebook codebook_;
   GrowingValues values_;
 };
@@ -142,10 +168,10 @@ private:
 }  // namespace
 
 Codebook train(const std::vector<TrainingSample>& samples, const Settings& settings, const std::string& name,
-               const Progress& progress) {
+               const Progress& progress, const Stages& stages) {
   validate(settings);
   if (samples.empty()) throw Error(ErrorCode::bad_usage, "there is nothing to train: no training cloud was given");
-  CodebookBuilder builder(settings, name);
+  CodebookBuilder builder(settings, name, stages);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     report(progress, {"training", samples[i].source, i, samples.size()});
     try {

@@ -77,7 +77,7 @@ double medianDistance(const Cloud& cloud) {
 
 void checkShape(const Cloud& cloud) {
   if (cloud.points.empty()) refuse("the cloud is empty (0 points)");
-  if (cloud.points.size() != std::size_t(cloud.width) * cloud.height) {
+  if (cloud.width > 0 && cloud.points.size() != std::size_t(cloud.width) * cloud.height) {
     refuse("the cloud holds " + std::to_string(cloud.points.size()) + " points, but its width x height is " +
            std::to_string(cloud.width) + " x " + std::to_string(cloud.height));
   }
@@ -156,6 +156,11 @@ std::vector<std::uint32_t> distinctPoints(const Cloud& cloud, const std::vector<
 }
 
 }  // namespace
+
+SanitizeSettings sanitizingFor(Orientation orientation, SanitizeSettings settings) {
+  if (orientation == Orientation::outward) settings.min_range = 0;
+  return settings;
+}
 
 Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeReport* report, int threads) {
   checkShape(cloud);

@@ -5,6 +5,7 @@
 
 #include <sks_detector/cloud.hpp>
 #include <sks_detector/settings.hpp>
+#include <sks_detector/stages/surface.hpp>
 
 namespace sks {
 
@@ -16,6 +17,10 @@ struct SanitizeReport {
   std::size_t duplicates = 0;    ///< at exactly the position of an earlier point
   std::size_t kept = 0;
 };
+
+/// The settings for a cloud whose normals are to point this way: a full model's origin is no sensor, so that no point is
+/// too near to it.
+SanitizeSettings sanitizingFor(Orientation orientation, SanitizeSettings settings);
 
 /// The one gate through which every cloud comes: returns the usable points of `cloud`, in their order.
 /// @throws Error(bad_data) if nothing usable is left or the lengths look like millimetres; says which, with figures

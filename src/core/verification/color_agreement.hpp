@@ -17,7 +17,7 @@ float squaredColorDifference(const Eigen::Vector3f& a, const Eigen::Vector3f& b)
 /// 1 for equal colours, falling to 0 with a Gaussian of the difference. @param tolerance its sigma, in units of CIELab
 float colorAgreement(float squared_difference, float tolerance);
 
-/// How much the colours around each point of a view's stored surface vary, in [0, 1): prints are as telling as edges.
+/// How much the colours around each point of a view's stored surface vary, in [0, 1): prints say as much as edges.
 /// Zeros for a view without colour.
 std::vector<float> colorVariation(const TrainingView& view, float radius);
 

@@ -9,10 +9,10 @@
 namespace sks {
 namespace {
 
-constexpr int most_at_a_place = 24;   // candidates of one object whose box centres are near each other
-constexpr int most_of_a_view = 3;     // of these
-constexpr int fewest_supported = 6;   // points, as many as a rigid motion has degrees of freedom
-constexpr double prior_weight = 0.2;  // so that a share of next to nothing is next to nothing
+constexpr int most_at_a_position = 24;  // candidates of one object whose box centres are near each other
+constexpr int most_of_a_view = 3;       // of these
+constexpr int fewest_supported = 6;     // points, as many as a rigid motion has degrees of freedom
+constexpr double prior_weight = 0.2;    // keeps the fraction of a very small weight low
 
 Eigen::Isometry3d poseOf(const Vote& vote, const Codeword& word) {
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
@@ -21,26 +21,27 @@ Eigen::Isometry3d poseOf(const Vote& vote, const Codeword& word) {
   return T_scene_model;
 }
 
-/// The best ones, spread over the places that votes point to: a strong instance leaves room for others of its object.
+/// The best ones, spread over the positions that votes point to: a strong instance leaves room for others of its
+/// object.
 std::vector<PoseCandidate> mostPromising(std::vector<PoseCandidate> candidates, const Codebook& codebook,
                                          const Settings& settings) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const PoseCandidate& a, const PoseCandidate& b) { return a.pre_score > b.pre_score; });
   const double radius = settings.voting.suppression_radius;
   std::vector<PoseCandidate> kept;
-  std::vector<std::pair<Eigen::Vector3d, std::uint32_t>> places;  // and views
+  std::vector<std::pair<Eigen::Vector3d, std::uint32_t>> positions;  // and views
   for (const PoseCandidate& candidate : candidates) {
     if (candidate.pre_score <= 0 || int(kept.size()) >= settings.verification.candidates) break;
-    const Eigen::Vector3d place = candidate.T_scene_model * codebook.views[candidate.view].center().cast<double>();
+    const Eigen::Vector3d position = candidate.T_scene_model * codebook.views[candidate.view].center().cast<double>();
     int near = 0, of_view = 0;
-    for (const auto& [other, view] : places) {
-      if ((place - other).norm() >= radius) continue;
+    for (const auto& [other, view] : positions) {
+      if ((position - other).norm() >= radius) continue;
       ++near;
       of_view += view == candidate.view;
     }
-    if (near >= most_at_a_place || of_view >= most_of_a_view) continue;
+    if (near >= most_at_a_position || of_view >= most_of_a_view) continue;
     kept.push_back(candidate);
-    places.emplace_back(place, candidate.view);
+    positions.emplace_back(position, candidate.view);
   }
   return kept;
 }
@@ -63,8 +64,8 @@ std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::v
       const RoughSupport support =
           roughSupport(codebook.views[word.view], surface_weights[word.view], scene, candidate.T_scene_model);
       if (support.points < fewest_supported) continue;
-      const double share = support.supported / (support.visible + prior_weight);
-      candidate.pre_score = share * std::sqrt(support.supported * density.at(votes[i].position));
+      const double fraction = support.supported / (support.visible + prior_weight);
+      candidate.pre_score = fraction * std::sqrt(support.supported * density.at(votes[i].position));
     }
     const std::vector<PoseCandidate> best = mostPromising(std::move(candidates), codebook, settings);
     all.insert(all.end(), best.begin(), best.end());

@@ -19,11 +19,11 @@ struct PoseCandidate {
   std::uint32_t object = 0;
   std::uint32_t view = 0;
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
-  double pre_score = 0;  ///< from the votes around it and a glance at the scene
+  double pre_score = 0;  ///< from the votes around it and a rough comparison with the scene
 };
 
 /// The most promising poses of each object, at most `verification.candidates`, best first within each object.
-/// @param telling how telling the points of each view's stored surface are
+/// @param surface_weights of each view
 std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<SurfaceWeights>& surface_weights,
                                           const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
                                           const Settings& settings, int threads);

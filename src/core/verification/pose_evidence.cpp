@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/verification/color_agreement.hpp"
 
@@ -80,9 +81,12 @@ Correspondence correspondenceOf(const Placed& placed, const Sighting& seen, cons
 }  // namespace
 
 SceneView::SceneView(const Surface& scene, const Settings& settings, int threads)
+    : SceneView(scene, findLargePlanes(scene, threads), settings, threads) {}
+
+SceneView::SceneView(const Surface& scene, std::vector<LargePlane> large_planes, const Settings& settings, int threads)
     : surface(scene),
       range_image(scene, float(settings.surface.normal_radius), threads),
-      planes(findLargePlanes(scene, threads)),
+      planes(std::move(large_planes)),
       color_tolerance(scene.hasColor() ? float(settings.verification.color_tolerance) : 0) {}
 
 SurfaceWeights::SurfaceWeights(const TrainingView& view) : shape(view.surface_points.size(), 0.0f) {

@@ -8,9 +8,9 @@
 
 #include <sks_detector/codebook.hpp>
 #include <sks_detector/settings.hpp>
+#include <sks_detector/stages/large_planes.hpp>
 #include <sks_detector/stages/surface.hpp>
 
-#include "core/keypoints/large_planes.hpp"
 #include "core/verification/range_image.hpp"
 
 namespace sks {
@@ -18,6 +18,8 @@ namespace sks {
 /// A scene as poses are compared with it. Refers to the surface.
 struct SceneView {
   SceneView(const Surface& scene, const Settings& settings, int threads = 1);
+  /// @param large_planes of findLargePlanes()
+  SceneView(const Surface& scene, std::vector<LargePlane> large_planes, const Settings& settings, int threads = 1);
 
   /// Whether the colours of a view are compared with those of the scene.
   bool comparesColor(const TrainingView& view) const { return color_tolerance > 0 && !view.surface_colors.empty(); }
@@ -28,7 +30,7 @@ struct SceneView {
   float color_tolerance;  // units of CIELab; 0: colours are not compared
 };
 
-/// How telling each point of a view's stored surface is, in [0, 1]: flat parts fit many things.
+/// The weight of each point of a view's stored surface, in [0, 1]: flat parts fit many things.
 struct SurfaceWeights {
   explicit SurfaceWeights(const TrainingView& view);
 
@@ -36,8 +38,8 @@ struct SurfaceWeights {
   std::vector<float> shape_and_color;  ///< ... and the colours
 };
 
-/// What the scene says to a view's stored surface in some pose. Areas are in m^2; weighted ones are multiplied with how
-/// telling the surface is. What is hidden, or lies on a plane larger than the object, speaks neither way.
+/// What the scene says to a view's stored surface in some pose. Areas are in m^2; weighted ones are multiplied with the
+/// weights of the surface. What is occluded, or lies on a plane larger than the object, speaks neither way.
 struct PoseEvidence {
   double facing = 0;                      ///< area that faces the sensor
   double supported = 0;                   ///< of that, confirmed by scene points with matching normals and colours
@@ -58,7 +60,7 @@ PoseEvidence examinePose(const TrainingView& view, const SurfaceWeights& surface
                          std::size_t most_points = 1500, CorrespondenceSearch search = CorrespondenceSearch::nearby);
 
 /// A quick look at a rough pose, along the sensor's rays only: how much of up to 80 points of the view's surface the
-/// scene confirms. Points count as much as they are telling.
+/// scene confirms. Points count by their weight.
 struct RoughSupport {
   int points = 0;        ///< confirmed
   double supported = 0;  ///< their weights

@@ -12,12 +12,12 @@
 
 namespace sks {
 
-/// How a place lies to what the sensor saw in its direction.
+/// How a position lies to what the sensor saw in its direction.
 enum class Sight {
   unknown,   ///< nothing was measured there
   at,        ///< at the surface that was seen
-  hidden,    ///< behind it
-  in_front,  ///< in front of it: the sensor looked through this place
+  occluded,  ///< behind it
+  in_front,  ///< in front of it: the sensor looked through this position
 };
 
 constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
@@ -39,7 +39,7 @@ public:
     float farthest = -1;                                     ///< below 0 where nothing was measured
   };
 
-  /// Where places appear in the image: u and v along the first axes of `axes` over depth along the third.
+  /// Where positions appear in the image: u and v along the first axes of `axes` over depth along the third.
   struct Projection {
     Eigen::Vector3f origin = Eigen::Vector3f::Zero();    ///< the sensor's [m]
     Eigen::Matrix3f axes = Eigen::Matrix3f::Identity();  ///< rows: u, v, and the direction of view
@@ -55,7 +55,7 @@ public:
   /// @param radius within which most points have a neighbour [m]
   RangeImage(const Surface& scene, float radius, int threads = 1);
 
-  /// What the sensor saw in the direction of a place.
+  /// What the sensor saw in the direction of a position.
   struct Sighting {
     Sight sight = Sight::unknown;
     const Cell* cell = nullptr;  ///< none: outside of the image
@@ -65,15 +65,15 @@ public:
   };
 
   /// @param tolerance nearer to the seen surface than this is at it [m]
-  Sighting look(const Eigen::Vector3f& place, float tolerance) const {
-    const Eigen::Vector3f p = project(place);
+  Sighting look(const Eigen::Vector3f& position, float tolerance) const {
+    const Eigen::Vector3f p = project(position);
     const float column = (p.x() - projection_.u0) / projection_.cell, row = (p.y() - projection_.v0) / projection_.cell;
     if (p.z() < 0 || !(column >= 0 && row >= 0 && column < float(projection_.width) && row < float(projection_.height)))
       return {};
     const Cell& cell = cells_[std::size_t(row) * std::size_t(projection_.width) + std::size_t(column)];
     if (cell.farthest < 0) return {Sight::unknown, &cell};
     if (p.z() < cell.nearest - tolerance) return {Sight::in_front, &cell};
-    if (p.z() > cell.farthest + tolerance) return {Sight::hidden, &cell};
+    if (p.z() > cell.farthest + tolerance) return {Sight::occluded, &cell};
     return {Sight::at, &cell};
   }
 
@@ -88,8 +88,8 @@ public:
 
 private:
   /// (u, v, range); range < 0 behind the sensor and beyond the rim
-  Eigen::Vector3f project(const Eigen::Vector3f& place) const {
-    const Eigen::Vector3f p = projection_.axes * (place - projection_.origin);
+  Eigen::Vector3f project(const Eigen::Vector3f& position) const {
+    const Eigen::Vector3f p = projection_.axes * (position - projection_.origin);
     const float range = p.norm();
     if (p.z() <= rim * range || range == 0) return {0, 0, -1};
     return {p.x() / p.z(), p.y() / p.z(), range};

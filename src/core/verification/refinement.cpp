@@ -60,17 +60,20 @@ Eigen::Isometry3d refinePose(const std::vector<Eigen::Vector3f>& points, const s
   return refined;
 }
 
+void refine(Hypothesis& hypothesis, const Codebook& codebook, const Surface& scene,
+            const RefinementSettings& settings) {
+  const TrainingView& view = codebook.views[hypothesis.view];
+  const Eigen::Isometry3d T_model_box = hypothesis.T_scene_model.inverse() * hypothesis.T_scene_box;
+  hypothesis.T_scene_model =
+      refinePose(view.surface_points, view.surface_normals, scene, settings, hypothesis.T_scene_model);
+  hypothesis.T_scene_box = hypothesis.T_scene_model * T_model_box;
+}
+
 void refineHypotheses(std::vector<Hypothesis>& hypotheses, const Codebook& codebook, const Surface& scene,
                       const RefinementSettings& settings, int threads) {
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-    Hypothesis& hypothesis = hypotheses[i];
-    if (hypothesis.density < settings.min_density) continue;
-    const TrainingView& view = codebook.views[hypothesis.view];
-    const Eigen::Isometry3d T_model_box = hypothesis.T_scene_model.inverse() * hypothesis.T_scene_box;
-    hypothesis.T_scene_model =
-        refinePose(view.surface_points, view.surface_normals, scene, settings, hypothesis.T_scene_model);
-    hypothesis.T_scene_box = hypothesis.T_scene_model * T_model_box;
+    if (hypotheses[i].density >= settings.min_density) refine(hypotheses[i], codebook, scene, settings);
   }
 }
 

@@ -22,8 +22,10 @@ Eigen::Isometry3d refinePose(const std::vector<Eigen::Vector3f>& points, const s
                              const Surface& scene, const RefinementSettings& settings,
                              const Eigen::Isometry3d& T_scene_model);
 
-/// The same for each hypothesis of at least `refinement.min_density`, against the surface of its training view; its box
-/// moves along. Deterministic for any number of threads.
+/// The same for the surface of the hypothesis' training view; its box moves along.
+void refine(Hypothesis& hypothesis, const Codebook& codebook, const Surface& scene, const RefinementSettings& settings);
+
+/// The same for each hypothesis of at least `refinement.min_density`. Deterministic for any number of threads.
 void refineHypotheses(std::vector<Hypothesis>& hypotheses, const Codebook& codebook, const Surface& scene,
                       const RefinementSettings& settings, int threads);
 

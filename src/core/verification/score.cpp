@@ -10,10 +10,11 @@ constexpr double steepness = 8;  // of the logistic function, fitted to simulate
 
 }  // namespace
 
-double score(const Hypothesis& hypothesis, const Settings& settings) {
-  if (settings.detection.hypotheses == Hypotheses::hough) {
-    return hypothesis.density / (hypothesis.density + settings.detection.half_density);
-  }
+double scoreOfDensity(const Hypothesis& hypothesis, const Settings& settings) {
+  return hypothesis.density / (hypothesis.density + settings.detection.half_density);
+}
+
+double scoreOfEvidence(const Hypothesis& hypothesis, const Settings& settings) {
   const double power = std::pow(hypothesis.evidence / settings.verification.half_evidence, steepness);
   return power / (power + 1);
 }

@@ -6,9 +6,12 @@
 
 namespace sks {
 
-/// Confidence in [0, 1) of a hypothesis, comparable across scenes. Where poses are verified: logistic in the logarithm
-/// of the evidence, 0.5 at `verification.half_evidence`. Else it grows with the density of its inliers' votes and is
-/// 0.5 at `detection.half_density`.
-double score(const Hypothesis& hypothesis, const Settings& settings);
+/// Confidence in [0, 1) by the density of the inliers' votes, 0.5 at `detection.half_density`; comparable across
+/// scenes.
+double scoreOfDensity(const Hypothesis& hypothesis, const Settings& settings);
+
+/// Confidence in [0, 1) of a pose that was verified: logistic in the logarithm of its evidence, 0.5 at
+/// `verification.half_evidence`; comparable across scenes.
+double scoreOfEvidence(const Hypothesis& hypothesis, const Settings& settings);
 
 }  // namespace sks

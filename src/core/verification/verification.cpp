@@ -9,14 +9,15 @@
 #include "core/verification/pose_candidates.hpp"
 #include "core/verification/projective_refinement.hpp"
 #include "core/verification/refinement.hpp"
+#include "core/verification/score.hpp"
 #include "core/voting/vote_density.hpp"
 
 namespace sks {
 namespace {
 
 constexpr double area_unit = 1e-4;       // [m^2] areas enter the evidence in cm^2
-constexpr double prior_area = 0.25e-4;   // [m^2] so that a share of next to nothing is next to nothing
-constexpr double color_gain = 1.7;       // of evidence: what agrees in colour too is as telling as three times the area
+constexpr double prior_area = 0.25e-4;   // [m^2] keeps the fraction of a very small area low
+constexpr double color_gain = 1.7;       // of evidence: agreement in colour is worth three times the area
 constexpr double largest_claimed = 0.5;  // of the confirming points; else a hypothesis claims none itself
 
 constexpr std::size_t first_points = 250, last_points = 1500;  // of a surface, examined before and after the choice
@@ -44,15 +45,15 @@ double densityAsOfHalf(double density, const KeypointSettings& keypoints) {
   return ranks ? density * 0.5 / (1 - keypoints.discard) : density;
 }
 
-/// The evidence grows with the share of the visible surface that is confirmed, with its telling area, with the share of
-/// all that faces the sensor, and with the votes for the place.
+/// The evidence grows with the fraction of the visible surface that is confirmed, with its weighted area, with the
+/// fraction of all that faces the sensor, and with the votes for the position.
 double evidenceOf(const PoseEvidence& pose, double density) {
-  const double share = pose.weighted_supported / (pose.weighted_visible + prior_area);
+  const double fraction = pose.weighted_supported / (pose.weighted_visible + prior_area);
   const double coverage = pose.supported / (pose.facing + prior_area);
-  return share * std::sqrt(pose.weighted_supported / area_unit * coverage) * std::cbrt(density);
+  return fraction * std::sqrt(pose.weighted_supported / area_unit * coverage) * std::cbrt(density);
 }
 
-/// Votes for the place of the hypothesis whose correspondences fit its pose.
+/// Votes for the position of the hypothesis whose correspondences fit its pose.
 std::vector<std::uint32_t> inliersOf(const Codebook& codebook, const std::vector<Vote>& votes,
                                      const Hypothesis& hypothesis, const Settings& settings) {
   const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();
@@ -61,9 +62,9 @@ std::vector<std::uint32_t> inliersOf(const Codebook& codebook, const std::vector
   for (std::size_t i = 0; i < votes.size(); ++i) {
     const Codeword& word = codebook.words[votes[i].word];
     if (word.view != hypothesis.view && codebook.views[word.view].frameName() != frame) continue;
-    const Eigen::Vector3d place = hypothesis.T_scene_model * word.position.cast<double>();
+    const Eigen::Vector3d mapped = hypothesis.T_scene_model * word.position.cast<double>();
     const bool here = (votes[i].position - center).norm() <= settings.voting.bandwidth;
-    const bool fits = (place - votes[i].keypoint.cast<double>()).norm() <= settings.ransac.inlier_threshold;
+    const bool fits = (mapped - votes[i].keypoint.cast<double>()).norm() <= settings.ransac.inlier_threshold;
     if (here && fits) inliers.push_back(std::uint32_t(i));
   }
   return inliers;
@@ -77,7 +78,7 @@ bool better(const Examined& a, const Examined& b) {
   return key(a.hypothesis) < key(b.hypothesis);
 }
 
-/// Of hypotheses for one object at one place the best; `examined` is sorted.
+/// Of hypotheses for one object at one position the best; `examined` is sorted.
 std::vector<Examined> suppressNonMaxima(std::vector<Examined> examined, const Codebook& codebook,
                                         const Settings& settings) {
   std::vector<Examined> kept;
@@ -96,7 +97,7 @@ std::vector<Examined> suppressNonMaxima(std::vector<Examined> examined, const Co
   return kept;
 }
 
-/// Each scene point belongs to the best hypothesis that explains it: the others lose their evidence by that share.
+/// Each scene point belongs to the best hypothesis that explains it: the others lose their evidence by that fraction.
 void resolveConflicts(std::vector<Examined>& examined, const Surface& scene, float distance) {
   std::vector<char> claimed(scene.size(), 0);
   std::vector<PointGrid::Run> runs;
@@ -104,9 +105,9 @@ void resolveConflicts(std::vector<Examined>& examined, const Surface& scene, flo
     const auto& confirming = candidate.confirming;
     if (confirming.empty()) continue;
     const auto taken = std::count_if(confirming.begin(), confirming.end(), [&](std::uint32_t i) { return claimed[i]; });
-    const double share = double(taken) / double(confirming.size());
-    candidate.hypothesis.evidence *= 1 - share;
-    if (share >= largest_claimed) continue;
+    const double fraction = double(taken) / double(confirming.size());
+    candidate.hypothesis.evidence *= 1 - fraction;
+    if (fraction >= largest_claimed) continue;
     for (const std::uint32_t i : confirming) {
       scene.forEachNeighbor(scene.point(i), distance, runs, [&](std::uint32_t j, float) { claimed[j] = 1; });
     }
@@ -115,16 +116,28 @@ void resolveConflicts(std::vector<Examined>& examined, const Surface& scene, flo
 
 }  // namespace
 
-Verifier::Verifier(std::shared_ptr<const Codebook> codebook) : codebook_(std::move(codebook)) {
+SurfaceVerifier::SurfaceVerifier(std::shared_ptr<const Codebook> codebook) : codebook_(std::move(codebook)) {
   weights_.reserve(codebook_->views.size());
-  for (const TrainingView& view : codebook_->views) {
-    weights_.emplace_back(view);
-    largest_extent_ = std::max(largest_extent_, view.extent().maxCoeff());
-  }
+  for (const TrainingView& view : codebook_->views) weights_.emplace_back(view);
 }
 
-std::vector<Hypothesis> Verifier::findPoses(const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
-                                            const Settings& settings, int threads) const {
+std::vector<Hypothesis> SurfaceVerifier::propose(const SceneDescription& /*scene*/, const Codebook& /*codebook*/,
+                                                 const Settings& /*settings*/) const {
+  return {};
+}
+
+std::vector<Hypothesis> SurfaceVerifier::verify(std::vector<Hypothesis> /*proposed*/, const SceneDescription& scene,
+                                                const Codebook& /*codebook*/, const Settings& settings) const {
+  const int threads = threadCount(settings);
+  return findPoses(scene.votes, SceneView(scene.surface, scene.planes, settings, threads), settings, threads);
+}
+
+double SurfaceVerifier::score(const Hypothesis& hypothesis, const Settings& settings) const {
+  return scoreOfEvidence(hypothesis, settings);
+}
+
+std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
+                                                   const Settings& settings, int threads) const {
   const std::vector<PoseCandidate> candidates = poseCandidates(*codebook_, weights_, spaces, scene, settings, threads);
   std::vector<VoteDensity> densities;
   densities.reserve(spaces.size());

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "core/voting/main_view.hpp"
 #include "core/voting/ransac.hpp"
 
 namespace sks {
@@ -26,21 +27,19 @@ std::uint32_t viewOf(const Codebook& codebook, const Vote& vote) {
   return codebook.words[vote.word].view;
 }
 
-/// The view to which most of the votes belong; of equals the first.
-std::uint32_t mainView(const Codebook& codebook, const std::vector<Vote>& votes,
-                       const std::vector<std::uint32_t>& members) {
-  std::map<std::uint32_t, std::size_t> counts;
-  for (const std::uint32_t i : members) ++counts[viewOf(codebook, votes[i])];
-  const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
-  return std::max_element(counts.begin(), counts.end(), fewer)->first;
+std::vector<std::uint32_t> wordsOf(const std::vector<Vote>& votes, const std::vector<std::uint32_t>& members) {
+  std::vector<std::uint32_t> words;
+  for (const std::uint32_t i : members) words.push_back(votes[i].word);
+  return words;
 }
 
-constexpr double largest_turn = 40 * EIGEN_PI / 180;  // between a vote's own rotation and the pose, in a shared frame
+constexpr double largest_rotation =
+    40 * EIGEN_PI / 180;  // between a vote's own rotation and the pose, in a shared frame
 
-/// Whether the local frames of a correspondence turn the model as the pose does.
-bool turnsAlike(const Vote& vote, const Eigen::Isometry3d& T_scene_model) {
+/// Whether the local frames of a correspondence rotate the model as the pose does.
+bool rotatesAlike(const Vote& vote, const Eigen::Isometry3d& T_scene_model) {
   const Eigen::Matrix3d difference = T_scene_model.linear().transpose() * vote.rotation.cast<double>();
-  return difference.trace() >= 1 + 2 * std::cos(largest_turn);
+  return difference.trace() >= 1 + 2 * std::cos(largest_rotation);
 }
 
 /// RANSAC over the votes of the training views of one frame. A shared frame offers many pairs, of which some fit any
@@ -57,9 +56,9 @@ FrameConsensus consensusOfFrame(const Codebook& codebook, const std::vector<Vote
   consensus.T_scene_model = found.T_to_from;
   const bool shared = !codebook.views[viewOf(codebook, votes[members.front()])].frame.empty();
   for (const std::size_t i : found.inliers) {
-    if (!shared || turnsAlike(votes[members[i]], found.T_to_from)) consensus.votes.push_back(members[i]);
+    if (!shared || rotatesAlike(votes[members[i]], found.T_to_from)) consensus.votes.push_back(members[i]);
   }
-  if (!consensus.votes.empty()) consensus.view = mainView(codebook, votes, consensus.votes);
+  if (!consensus.votes.empty()) consensus.view = mainView(codebook, wordsOf(votes, consensus.votes));
   return consensus;
 }
 

@@ -2,24 +2,23 @@
 #include "core/voting/mean_shift.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include <sks_detector/stages/point_grid.hpp>
 
+#include "core/voting/gaussian_kernel.hpp"
+
 namespace sks {
 namespace {
-
-constexpr double cutoff = 4.0;  // bandwidths; the kernel is below 0.0004 beyond
 
 /// Kernel sum at `x` and the kernel's mean of the points: one mean shift step.
 double shift(const PointGrid& points, double bandwidth, const Eigen::Vector3f& x, std::vector<PointGrid::Run>& runs,
              Eigen::Vector3f& mean) {
-  const double factor = -0.5 / (bandwidth * bandwidth);
+  const GaussianKernel<double> kernel = shiftKernel(bandwidth);
   double density = 0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  points.forEachNeighbor(x, float(cutoff * bandwidth), runs, [&](std::uint32_t i, float squared) {
-    const double weight = std::exp(factor * squared);
+  points.forEachNeighbor(x, float(kernel.reach()), runs, [&](std::uint32_t i, float squared) {
+    const double weight = kernel(squared);
     density += weight;
     sum += weight * (points.point(i) - x).cast<double>();
   });
@@ -54,10 +53,11 @@ bool stronger(const Maximum& a, const Maximum& b) {
 }  // namespace
 
 double kernelDensity(const Eigen::Vector3f& x, const std::vector<Eigen::Vector3f>& points, double bandwidth) {
+  const GaussianKernel<double> kernel = shiftKernel(bandwidth);
   double density = 0;
   for (const auto& p : points) {
-    const double squared = (p - x).cast<double>().squaredNorm() / (bandwidth * bandwidth);
-    if (squared <= cutoff * cutoff) density += std::exp(-0.5 * squared);
+    const double squared = (p - x).cast<double>().squaredNorm();
+    if (squared <= kernel.reach() * kernel.reach()) density += kernel(squared);
   }
   return density;
 }
