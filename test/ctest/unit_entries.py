@@ -49,6 +49,8 @@ def skips_itself(case, lines):
 def entries(cases, sources, prefix):
     """(name, filter of GoogleTest, kind) of each entry; a suite that is spread over two files cannot be named by one."""
     paths = {os.path.basename(source): source for source in sources}
+    if len(paths) != len(sources):
+        sys.exit(f'{prefix}: two test files have the same name; give one another')
     files, home = {}, {}
     for case in cases:
         name = os.path.basename(case.file)
