@@ -13,7 +13,7 @@ import yaml
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 SKIPPED = 77
-# (key of the limits, key of the evaluation, name, whether more is better)
+# key of the limits, key of the evaluation, name, whether more is better
 MEASURES = [('f1', 'f1', 'F1', True), ('average_precision', 'average_precision', 'AP', True),
             ('false_alarms', 'false_positives', 'false alarms', False)]
 
@@ -40,12 +40,14 @@ def compare(name, limits, evaluation):
     """The line that says it all, and what is broken."""
     figures, broken = [], []
     for limit_key, key, label, more in MEASURES:
+        if limit_key not in limits:
+            continue
         value, limit = evaluation[key], limits[limit_key]
         digits = '.3f' if more else 'd'
         text = 'undefined' if value is None else format(value, digits)
         figures.append(f'{label} {text} ({"at least" if more else "at most"} {limit:{digits}})')
         if value is None or (value < limit if more else value > limit):
-            broken.append(f'{name}: {label} is {text}, the limit is {limit:{digits}}')
+            broken.append(f'{name}: {label} {text}: the limit of {limit:{digits}} is broken')
     return f'{name}: ' + ', '.join(figures), broken
 
 
@@ -63,7 +65,9 @@ def main():
             os.path.join(options.folder, options.set + '.sks'), *config)
         return 0
     with open(os.path.join(HERE, 'accuracy_limits.yaml'), encoding='utf-8') as file:
-        limits = yaml.safe_load(file)[options.set]
+        limits = yaml.safe_load(file).get(options.set)
+    if limits is None:
+        sys.exit(f'accuracy_limits.yaml has no data set {options.set}')
     result = os.path.join(options.folder, options.set + '.json')
     run(options.sks, 'evaluate', '--dataset', data_set(options.set), '--codebook',
         os.path.join(options.folder, limits['codebook'] + '.sks'), *config, '--json', result)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""The scripts that check the source, on small checkouts of their own."""
+"""The scripts that check the source, on small checkouts of their own, and the comparison with the limits of accuracy."""
 import os
 import subprocess
 import sys
@@ -112,6 +112,49 @@ class MethodTable(Checkout):
     def test_must_be_there(self):
         self.write('docs/method.md', '# Method\n\n| setting | default |\n| --- | --- |\n| a | b |\n')
         self.refused('check_method_table.py', 'has no table with the columns section | stage folder | files | paper')
+
+
+class Accuracy(Checkout):
+    """With a command line that gives what it is told to."""
+
+    def compare(self, name, figures, data=True):
+        self.write('data/kinect_few_views/dataset.yaml')
+        self.write('data/clutter/dataset.yaml')
+        self.write('sks', '#!/bin/sh\nfor last; do :; done\necho "$FIGURES" >"$last"\n')
+        sks = os.path.join(self.folder.name, 'sks')
+        os.chmod(sks, 0o755)
+        environment = dict(os.environ, FIGURES=figures, SKS_DATA=os.path.join(self.folder.name, 'data') if data else '')
+        run = subprocess.run([sys.executable, os.path.join(os.path.dirname(SCRIPTS), 'test', 'accuracy_test.py'), name,
+                              '--sks', sks, '--folder', self.folder.name], env=environment,
+                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+        return run.returncode, run.stdout
+
+    def test_that_reaches_the_limits_passes_and_says_the_figures(self):
+        status, output = self.compare(
+            'kinect_few_views', '{"f1": 0.999, "average_precision": 0.998, "false_positives": 0}')
+        self.assertEqual(status, 0, output)
+        self.assertRegex(output, r'^kinect_few_views: F1 0.999 \(at least 0.\d+\), AP 0.998 \(at least 0.\d+\), '
+                                 r'false alarms 0 \(at most \d+\)\n$')
+        status, output = self.compare('clutter', '{"f1": null, "average_precision": null, "false_positives": 0}')
+        self.assertEqual(status, 0, output)
+
+    def test_fails_naming_each_limit_that_is_broken(self):
+        status, output = self.compare(
+            'kinect_few_views', '{"f1": 0.5, "average_precision": null, "false_positives": 100}')
+        self.assertEqual(status, 1, output)
+        for text in ('F1 0.500: the limit of', 'AP undefined: the limit of', 'false alarms 100: the limit of'):
+            self.assertIn('kinect_few_views: ' + text, output)
+        status, output = self.compare(
+            'kinect_few_views', '{"f1": 0.999, "average_precision": 0.3, "false_positives": 0}')
+        self.assertEqual(status, 1, output)
+        self.assertEqual(output.count('is broken'), 1)
+
+    def test_is_skipped_without_data(self):
+        self.assertEqual(self.compare('kinect_few_views', '{}', data=False),
+                         (77, 'skipped: SKS_DATA, the folder of the recorded data sets, is not set\n'))
+        status, output = self.compare('lm_clutter', '{}')
+        self.assertEqual(status, 77)
+        self.assertIn('lm_clutter/dataset.yaml is not there', output)
 
 
 if __name__ == '__main__':
