@@ -200,10 +200,10 @@ TEST(Detector, IsDeterministic) {
 TEST(Detector, IsSharedByThreads) {
   const sks::Cloud scene = clutteredScene();
   const sks::Cloud other = transformed(viewOf(asymmetricShape()), poseOf(25, {0, 1, 0}, {0.1f, 0, 0.2f}));
-  for (const int candidates : {80, 0}) {
+  for (const auto hypotheses : {sks::Hypotheses::verified, sks::Hypotheses::hough}) {
     for (const int threads : {1, 3}) {
       sks::Settings settings;
-      settings.verification.candidates = candidates;
+      settings.detection.hypotheses = hypotheses;
       settings.threads = threads;
       const sks::Detector detector(twoObjects(), settings);
       const auto expected = detector.detect(scene).detections, expected_of_other = detector.detect(other).detections;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a power cut, a kill, a full disk or a read-only one leaves behind: the old file or the new one, never a half of
-// either. SKS_FAULT_RUNS kills each writer so many times, by default 20.
+// either. SKS_FAULT_RUNS kills each writer so many times, by default 6: a few that tell of a broken one at once.
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -41,7 +41,7 @@ using ::testing::HasSubstr;
 
 int runs() {
   const char* text = std::getenv("SKS_FAULT_RUNS");
-  return text == nullptr ? 20 : std::atoi(text);
+  return text == nullptr ? 6 : std::atoi(text);
 }
 
 Codebook codebookOf(const std::string& name, std::size_t words) {

@@ -15,7 +15,7 @@ import services_support
 import support
 import synthetic
 
-RUNS = int(os.environ.get("SKS_FAULT_RUNS", 8))
+RUNS = int(os.environ.get("SKS_FAULT_RUNS", 4))
 NAMES = ("first", "second")
 
 

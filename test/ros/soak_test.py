@@ -1,34 +1,43 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""scripts/soak, for three minutes: too short, on a busy machine, for limits as strict as its defaults."""
+"""scripts/soak, for SKS_SOAK_MINUTES, by default one. In so short a time memory settles less, and latencies scatter more,
+than in the half hour that the limits of the script are for."""
+import os
 import re
 import subprocess
 import unittest
 
 import rostest
 
+MINUTES = float(os.environ.get("SKS_SOAK_MINUTES", 1))
+WARMUP = 20  # [s]
+
+
+def soak(*arguments):
+    return subprocess.run(["rosrun", "sks_detector", "soak", *arguments], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, universal_newlines=True)
+
 
 class SoakTest(unittest.TestCase):
-    def test_nothing_is_lost_and_nothing_grows(self):
-        run = subprocess.run(["rosrun", "sks_detector", "soak", "--minutes", "3", "--warmup", "20", "--growth", "5",
-                              "--lost", "10", "--slower", "1000"],
-                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+    def test_nothing_is_lost_nothing_grows_and_nothing_slows_down(self):
+        run = soak("--minutes", str(MINUTES), "--warmup", str(WARMUP), "--growth", "5", "--slower", "50")
         self.assertEqual(run.returncode, 0, run.stdout)
-        sent, received, processed, dropped = map(int, re.search(
-            r"(\d+) sent, (\d+) received, (\d+) processed, (\d+) dropped", run.stdout).groups())
-        self.assertEqual(sent, 2000)
-        self.assertGreaterEqual(received, 1990)
-        self.assertEqual(processed + dropped, received)
+        sent, processed, dropped, lost, answers = map(int, re.search(
+            r"(\d+) sent, (\d+) processed, (\d+) dropped for newer ones, (\d+) lost, (\d+) answers", run.stdout).groups())
+        self.assertEqual(sent, round(10 * (60 * MINUTES + WARMUP)))
+        self.assertEqual(lost, 0)
+        self.assertEqual(processed + dropped, sent)
+        self.assertEqual(answers, processed)
         self.assertIn("clouds of 640x480", run.stdout)
         self.assertIn("largest difference 0 ns", run.stdout)
         self.assertEqual(len(re.findall("^ok: ", run.stdout, re.M)), 8, run.stdout)
+        print(run.stdout)
 
-    def test_fails_where_memory_grows_too_much(self):
-        run = subprocess.run(["rosrun", "sks_detector", "soak", "--minutes", "0.03", "--warmup", "1", "--growth", "-100",
-                              "--lost", "10", "--slower", "1000"],
-                             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+    def test_fails_where_memory_grows_or_the_end_is_slower_by_more_than_the_limits(self):
+        run = soak("--minutes", "0.1", "--warmup", "1", "--growth", "-100", "--slower", "-100")
         self.assertEqual(run.returncode, 1, run.stdout)
         self.assertIn("NOT TRUE:  memory grows by no more than -100 %", run.stdout)
+        self.assertRegex(run.stdout, "NOT TRUE:  p95 of the last .* s is no more than -100 % above that of the first")
 
 
 if __name__ == "__main__":
