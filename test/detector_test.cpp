@@ -133,7 +133,7 @@ TEST(Detector, FindsAnObjectInViewsThatItWasNotTrainedWith) {
     const auto result = detector.detect(sks::test::view({Placed{asymmetricShape(), T}}));
     ASSERT_FALSE(result.detections.empty());
     EXPECT_EQ(result.detections[0].object, "thing") << degrees;
-    expectPose(result.detections[0], T, 10, 0.02);
+    expectPose(result.detections[0], T, 0.5, 0.001);
   }
 }
 
