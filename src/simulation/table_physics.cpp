@@ -151,9 +151,9 @@ std::vector<Eigen::Isometry3d> TablePhysics::settle() {
   for (int i = 0; i < settle_steps && !w.isStill(); ++i) w.step();
   std::vector<Eigen::Isometry3d> poses;
   for (std::size_t i = 1; i < w.things.size(); ++i) {  // the first is the table
-    const btTransform& pose = w.things[i].body->getWorldTransform();
-    const btVector3& p = pose.getOrigin();
-    const btQuaternion q = pose.getRotation();
+    const btTransform& moved = w.things[i].body->getWorldTransform();
+    const btVector3& p = moved.getOrigin();
+    const btQuaternion q = moved.getRotation();
     Eigen::Isometry3d pose(Eigen::Translation3d(double(p.x()) / units, double(p.y()) / units, double(p.z()) / units));
     pose.rotate(Eigen::Quaterniond(double(q.w()), double(q.x()), double(q.y()), double(q.z())).normalized());
     poses.push_back(pose * Eigen::Translation3d(-w.things[i].center_of_mass));
