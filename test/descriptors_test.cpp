@@ -14,7 +14,6 @@ using testing::HasSubstr;
 
 namespace {
 
-
 sks::Surface prepare(const sks::Cloud& cloud, sks::Orientation orientation = sks::Orientation::sensor) {
   return sks::prepareSurface(cloud, {}, orientation, 2);
 }

@@ -75,6 +75,7 @@ struct Example {
 };
 
 TEST(HoughGrouping, FindsTheClustersOfPcl) {
+  std::size_t found = 0;
   for (unsigned seed = 0; seed < 5; ++seed) {
     const Example example(seed);
     for (const double threshold : {3.0, 8.0, -0.5, -1.0}) {
@@ -82,13 +83,14 @@ TEST(HoughGrouping, FindsTheClustersOfPcl) {
         for (const bool weigh : {false, true}) {
           const HoughParameters parameters{0.03, threshold, interpolate, weigh};
           const Pairs ours = pairsIn(houghClusters(example.model, example.scene, parameters));
-          EXPECT_FALSE(ours.empty());
+          found += ours.size();
           EXPECT_EQ(ours, pairsIn(clustersOfPcl(example.model, example.scene, parameters)))
               << seed << " " << threshold << " " << interpolate << " " << weigh;
         }
       }
     }
   }
+  EXPECT_GT(found, 100u);
 }
 
 TEST(HoughGrouping, OfNoCorrespondencesIsNone) {
