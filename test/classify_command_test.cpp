@@ -125,7 +125,7 @@ TEST_F(ClassifyCommand, SaysWhatIsWrong) {
   EXPECT_EQ(runSks({"classify"}).status, 2);
 }
 
-TEST(ClassifyRecordedShapes, ReachesTheAimedAccuracy) {
+TEST(AccuracyOfRecordedShapes, ReachesTheAimedAccuracy) {
   const std::string shapes = test::recordedData("shapes/dataset.yaml");
   if (shapes.empty()) GTEST_SKIP() << "the recorded shapes are not here";
   const CommandRun run = runSks({"classify", "--dataset", shapes, "--json", "-"});

@@ -292,7 +292,7 @@ TEST_F(EvaluateCommand, BadUsageHasItsOwnStatus) {
   EXPECT_THAT(untrained.errors, AllOf(HasSubstr("has no training clouds"), HasSubstr("--codebook FILE")));
 }
 
-TEST(EvaluateRecordedScenes, ScoresMeanTheSameForEverySelection) {
+TEST(AccuracyOfRecordedScenes, ScoresMeanTheSameForEverySelection) {
   const std::string file = test::recordedData("kinect/dataset.yaml");
   if (file.empty()) GTEST_SKIP() << "no recorded data: set SKS_DATA";
   const test::TemporaryFolder folder;

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Entries of ctest for a program of GoogleTest: one for each of its source files, so that not every case is a process of
 its own. Cases that skip themselves (GTEST_SKIP) are entries of their own, since ctest knows no skipped part of an entry;
-so are suites of SlowX, which run only with SKS_SLOW=1. `--check` compares an earlier list with the cases there are."""
+so are suites SlowX, which run only with SKS_SLOW=1, and AccuracyX, which evaluate recorded data on all cores. `--check`
+compares an earlier list with the cases there are."""
 import argparse
 import fnmatch
 import json
@@ -60,21 +61,23 @@ def entries(cases, sources, prefix):
     for name, held in sorted(files.items()):
         with open(paths[name], encoding='utf-8') as file:
             lines = file.read().splitlines()
-        stem = prefix + '.' + re.sub(r'(_test)?\.cpp$', '', name)
+        stem = re.sub(r'(_test)?\.cpp$', '', name)
         alone = {}
         for case in held:
             if case.kind().startswith('Slow'):
-                alone.setdefault((f'{stem}.{case.kind()}', 'slow'), []).append(case.suite + '.*')
+                alone.setdefault(('slow.' + stem, 'slow'), []).append(case.suite + '.*')
+            elif case.kind().startswith('Accuracy'):
+                alone.setdefault(('accuracy.' + stem, 'accuracy'), []).append(case.suite + '.*')
             elif skips_itself(case, lines):
                 single = re.sub(r'/.*$', '', case.name)
-                alone.setdefault((f'{stem}.{single}', 'skips'), []).append(case.full_name())
+                alone.setdefault((f'{prefix}.{stem}.{single}', 'skips'), []).append(case.full_name())
         for (entry, kind), filters in alone.items():
             yield entry, ':'.join(dict.fromkeys(filters)), kind
         excluded = [f for filters in alone.values() for f in dict.fromkeys(filters)]
         suites = list(dict.fromkeys(c.suite + '.*' for c in held if not matches(c, ':'.join(excluded))))
         if suites:
             without = [f for f in excluded if f not in suites and f[:f.index('.')] + '.*' in suites]
-            yield stem, ':'.join(suites) + ('-' + ':'.join(without) if without else ''), 'all'
+            yield f'{prefix}.{stem}', ':'.join(suites) + ('-' + ':'.join(without) if without else ''), 'all'
 
 
 def matches(case, filters):
@@ -96,9 +99,12 @@ def write(path, program, options, found):
         properties = f'TIMEOUT {options.timeout}'
         if options.environment:
             properties += f' ENVIRONMENT {quoted(options.environment)}'
-        if kind == 'skips':
+        if kind in ('skips', 'accuracy'):
             properties += f' SKIP_REGULAR_EXPRESSION "{SKIPPED}"'
-        elif kind == 'slow':
+        if kind == 'accuracy':
+            properties += ' PROCESSORS 2'
+            label = 'accuracy'
+        if kind == 'slow':
             command = [options.slow_runner] + command
             properties += ' SKIP_RETURN_CODE 77'
             label = 'slow'
