@@ -67,7 +67,9 @@ protected:
 };
 
 TEST_P(SceneMethod, FindsTheObjectWithItsPose) {
+  ::testing::internal::CaptureStderr();
   const DetectionResult result = detect(wholeGrid());
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "") << "PCL is silenced";
   ASSERT_FALSE(result.detections.empty());
   const Detection& best = result.detections.front();
   EXPECT_EQ(best.object, "thing");

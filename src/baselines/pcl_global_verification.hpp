@@ -15,7 +15,24 @@
 
 #include <pcl/common/time.h>
 #include <pcl/point_types.h>
+
+namespace sks::baselines {
+
+/// Takes the place of pcl::ScopeTime, which prints on stderr how long everything took.
+struct SilentScopeTime {
+  explicit SilentScopeTime(const char*) {}
+};
+
+}  // namespace sks::baselines
+
+// Before the header: where templates are not precompiled, it brings its implementation.
+#define ScopeTime SilentScopeTime
+namespace pcl {
+using sks::baselines::SilentScopeTime;
+}
 #include <pcl/recognition/hv/hv_go.h>
+#include <pcl/recognition/impl/hv/hv_go.hpp>
+#undef ScopeTime
 
 namespace sks::baselines {
 
@@ -24,11 +41,6 @@ using HvCloud = pcl::PointCloud<HvPoint>;
 
 /// Shuffles the moves of simulated annealing; to be seeded before each verification.
 inline thread_local std::mt19937 annealing_moves;
-
-/// Takes the place of pcl::ScopeTime, which prints on stderr how long everything took.
-struct SilentScopeTime {
-  explicit SilentScopeTime(const char*) {}
-};
 
 }  // namespace sks::baselines
 
@@ -82,10 +94,3 @@ bool GlobalHypothesesVerification<sks::baselines::HvPoint, sks::baselines::HvPoi
 }
 
 }  // namespace pcl
-
-#define ScopeTime SilentScopeTime
-namespace pcl {
-using sks::baselines::SilentScopeTime;
-}
-#include <pcl/recognition/impl/hv/hv_go.hpp>
-#undef ScopeTime
