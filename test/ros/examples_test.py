@@ -10,6 +10,7 @@ import numpy as np
 import roslib.packages
 import rospy
 import rostest
+from sensor_msgs.msg import PointCloud2
 
 import support
 import synthetic
@@ -25,8 +26,12 @@ class ExamplesTest(unittest.TestCase):
         self.addCleanup(process.stdout.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.terminate)
-        # lazy: the node subscribes to clouds once somebody wants its detections
-        support.CloudSource("/points").send(support.cloud_message(synthetic.scene()))
+        # again and again: what the node finds before the example is connected, nobody hears
+        clouds = rospy.Publisher("/points", PointCloud2, queue_size=1)
+        scene = synthetic.scene()
+        timer = rospy.Timer(rospy.Duration(0.5), lambda _: clouds.publish(support.cloud_message(scene)))
+        self.addCleanup(clouds.unregister)
+        self.addCleanup(timer.shutdown)
         return sorted(process.stdout.readline() for _ in range(2))
 
     def expect_both(self, lines):
