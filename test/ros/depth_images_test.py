@@ -16,6 +16,7 @@ import support
 import synthetic
 from sks_detector.msg import DetectionArray
 
+BONDS_FORM = 3.0  # by which nodelet's loaders tell that their manager has died: heartbeats of one second [s]
 PIXEL = 0.0025  # of synthetic.view() at the distance of 1 m [m]
 
 
@@ -68,6 +69,7 @@ class DepthImagesTest(unittest.TestCase):
 
     def test_comes_back_when_its_manager_dies(self):
         self.expect_answer(rospy.Time())
+        rospy.sleep(BONDS_FORM)
         manager = rosgraph.Master("/depth_images_test").lookupNode("/detector_manager")
         os.kill(xmlrpc.client.ServerProxy(manager).getPid("/depth_images_test")[2], signal.SIGKILL)
         died = rospy.Time.now()
