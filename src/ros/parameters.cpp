@@ -26,7 +26,11 @@ ParameterReading readParameters(const XmlRpc::XmlRpcValue& tree, const std::stri
   std::vector<std::string> of_detector;
   for (const TreeReading::Refused& refused : from_tree.refused) {
     const bool of_node = nodeTable().find(refused.key) != nullptr;
-    (of_node ? reading.errors : of_detector).push_back(refused.message);
+    if (of_node) {
+      reading.errors.push_back(refused.message);
+    } else {
+      of_detector.push_back(refused.message);
+    }
   }
   try {
     if (of_detector.empty()) sks::validate(detector);

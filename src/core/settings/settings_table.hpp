@@ -74,11 +74,19 @@ struct BoundSettings {
   std::function<void(const std::string& key, const std::string& text)> set;
 };
 
+/// What SettingInfo::type says.
+template <typename V>
+const char* settingTypeName() {
+  if (std::is_enum_v<V>) return "choice";
+  if (std::is_same_v<V, std::string>) return "string";
+  if (std::is_same_v<V, double>) return "double";
+  return std::is_same_v<V, int> ? "int" : "bool";
+}
+
 template <typename T>
 class SettingsTable : public SettingKeys {
 public:
-  explicit SettingsTable(std::vector<OldSetting> old_settings = {})
-      : SettingKeys(describe(), std::move(old_settings)) {}
+  explicit SettingsTable(const std::vector<OldSetting>& old_settings = {}) : SettingKeys(describe(), old_settings) {}
 
   /// The value as text that set() takes back unchanged. @throws Error(bad_usage) for an unknown key
   std::string get(const T& settings, const std::string& key) const {
@@ -121,14 +129,6 @@ private:
   static constexpr bool is_number = std::is_same_v<V, double> || std::is_same_v<V, int>;
 
   template <typename V>
-  static const char* typeName() {
-    if (std::is_enum_v<V>) return "choice";
-    if (std::is_same_v<V, std::string>) return "string";
-    if (std::is_same_v<V, double>) return "double";
-    return std::is_same_v<V, int> ? "int" : "bool";
-  }
-
-  template <typename V>
   static void check(const SettingInfo& info, const V& value) {
     if constexpr (is_number<V>) checkRange(info, value);
   }
@@ -140,7 +140,8 @@ private:
       using V = std::decay_t<decltype(value)>;
       std::vector<std::string> choices;
       if constexpr (std::is_enum_v<V>) choices.assign(EnumNames<V>::value.begin(), EnumNames<V>::value.end());
-      list.push_back({key, typeName<V>(), toText(value), about.range, about.unit, about.help, choices, about.binding});
+      list.push_back(
+          {key, settingTypeName<V>(), toText(value), about.range, about.unit, about.help, choices, about.binding});
     });
     return list;
   }
