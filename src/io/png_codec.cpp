@@ -44,10 +44,10 @@ void ignore(png_structp, png_const_charp) {}
 template <typename Pixel>
 class Reader {
 public:
-  explicit Reader(const std::string& bytes) {
+  explicit Reader(const std::string& bytes)
+      : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &stream_, complain, ignore)),
+        info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {
     stream_.input = &bytes;
-    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &stream_, complain, ignore);
-    info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
   }
   ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
   Reader(const Reader&) = delete;
