@@ -34,7 +34,7 @@ private:
 /// @throws Error(incompatible) where the codebook holds other descriptors than the stage computes
 Stages completed(Stages stages, const Codebook& codebook);
 
-/// The descriptors of a stage. @throws Error(bad_data) where they do not have the shape that it promises
+/// The descriptors of a stage. @throws Error(bad_data) where they do not have the shape that it states
 Descriptors described(const DescriptorStage& stage, const Surface& surface, const Keypoints& keypoints,
                       const Settings& settings);
 

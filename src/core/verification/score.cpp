@@ -6,7 +6,7 @@
 namespace sks {
 namespace {
 
-constexpr double steepness = 8;  // of the logistic function, fitted to simulated clutter (docs/evaluate.md)
+constexpr double steepness = 8;  // of the logistic function, fitted to simulated clutter (docs/accuracy.md)
 
 }  // namespace
 
