@@ -13,7 +13,7 @@
 namespace sks {
 namespace {
 
-[[noreturn]] void fail(const std::string& message) {
+[[noreturn]] void badCodebook(const std::string& message) {
   throw Error(ErrorCode::bad_file, message);
 }
 
@@ -32,7 +32,7 @@ TrainingView fromFormat(const format::View& from) {
   TrainingView view;
   view.object = from.object();
   view.source = from.source()->str();
-  if (from.kind() > format::ViewKind_MAX) fail("its training cloud '" + view.source + "' is of an unknown kind");
+  if (from.kind() > format::ViewKind_MAX) badCodebook("its training cloud '" + view.source + "' is of an unknown kind");
   view.kind = ViewKind(from.kind());
   if (from.frame() != nullptr) view.frame = from.frame()->str();
   view.sensor_origin = fromFormat(*from.sensor_origin());
@@ -60,7 +60,7 @@ Settings readSettings(const std::string& yaml) {
     parseSettings(yaml, "settings", settings);
     validate(settings);
   } catch (const Error& error) {
-    fail(std::string("it was trained with settings that this version does not know: ") + error.what() +
+    badCodebook(std::string("it was trained with settings that this version does not know: ") + error.what() +
          "; train it again");
   }
   return settings;
@@ -86,7 +86,7 @@ bool takesWhatItStores(const format::Codebook& from, std::uint64_t stored) {
 DescriptorMatrix descriptorsOf(const std::shared_ptr<const FileContent>& file, const CodebookHeader& header,
                                std::size_t columns) {
   const std::uint64_t row = columns * sizeof(float);
-  if (header.descriptors_size % row != 0) fail("its descriptors have no whole rows; train it again");
+  if (header.descriptors_size % row != 0) badCodebook("its descriptors have no whole rows; train it again");
   const auto* data = reinterpret_cast<const float*>(file->data() + header.descriptors_offset);
   return {data, std::size_t(header.descriptors_size / row), columns, file};
 }
@@ -94,19 +94,19 @@ DescriptorMatrix descriptorsOf(const std::shared_ptr<const FileContent>& file, c
 std::shared_ptr<const Codebook> read(const std::shared_ptr<const FileContent>& file) {
   const CodebookHeader header = checkCodebookHeader(file->data(), file->size());
   flatbuffers::Verifier verifier(file->data() + header.metadata_offset, header.metadata_size);
-  if (!format::VerifyCodebookBuffer(verifier)) fail("its metadata is damaged; train it again");
+  if (!format::VerifyCodebookBuffer(verifier)) badCodebook("its metadata is damaged; train it again");
   const format::Codebook& from = *format::GetCodebook(file->data() + header.metadata_offset);
-  if (!takesWhatItStores(from, header.metadata_size)) fail("its metadata is damaged; train it again");
+  if (!takesWhatItStores(from, header.metadata_size)) badCodebook("its metadata is damaged; train it again");
 
   const auto codebook = std::make_shared<Codebook>();
   codebook->name = from.name()->str();
   const std::string type = from.descriptor_type()->str();
   if (!readDescriptorText(type, *codebook) ||
       (codebook->own_descriptor.empty() && codebook->descriptorSize() != from.descriptor_size())) {
-    fail("it holds descriptors of the unknown type '" + type + "' with " + std::to_string(from.descriptor_size()) +
+    badCodebook("it holds descriptors of the unknown type '" + type + "' with " + std::to_string(from.descriptor_size()) +
          " bins: update sks_detector");
   }
-  if (from.descriptor_size() == 0) fail("its descriptor type is not decided; train it again");
+  if (from.descriptor_size() == 0) badCodebook("its descriptor type is not decided; train it again");
   codebook->settings = readSettings(from.settings()->str());
   for (const auto* object : *from.objects()) codebook->objects.push_back(object->str());
   for (const auto* view : *from.views()) codebook->views.push_back(fromFormat(*view));
@@ -115,7 +115,7 @@ std::shared_ptr<const Codebook> read(const std::shared_ptr<const FileContent>& f
   codebook->descriptors = descriptorsOf(file, header, from.descriptor_size());
   codebook->checksum.set(header.payload_checksum);
   const std::string fault = codebookFault(*codebook);
-  if (!fault.empty()) fail(fault + "; train it again");
+  if (!fault.empty()) badCodebook(fault + "; train it again");
   return codebook;
 }
 

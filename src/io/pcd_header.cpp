@@ -15,13 +15,13 @@ namespace {
 using Words = std::vector<std::string>;
 using Entries = std::map<std::string, Words>;
 
-[[noreturn]] void fail(const std::string& message) {
+[[noreturn]] void badPcdHeader(const std::string& message) {
   throw Error(ErrorCode::bad_data, "its PCD header " + message);
 }
 
 const Words& entry(const Entries& entries, const std::string& name) {
   const auto found = entries.find(name);
-  if (found == entries.end() || found->second.empty()) fail("has no " + name);
+  if (found == entries.end() || found->second.empty()) badPcdHeader("has no " + name);
   return found->second;
 }
 
@@ -29,7 +29,7 @@ const Words& entry(const Entries& entries, const std::string& name) {
 Entries readEntries(std::istream& file) {
   Entries entries;
   for (Words words; entries.count("DATA") == 0;) {
-    if (!readHeaderLine(file, words)) fail("has no line DATA");
+    if (!readHeaderLine(file, words)) badPcdHeader("has no line DATA");
     if (words.empty() || words[0][0] == '#') continue;
     const std::string name = words[0] == "COLUMNS" ? "FIELDS" : words[0];
     entries[name] = {words.begin() + 1, words.end()};
@@ -43,15 +43,15 @@ std::vector<PcdField> readFields(const Entries& entries) {
   const Words& types = entry(entries, "TYPE");
   const Words counts = entries.count("COUNT") ? entry(entries, "COUNT") : Words(names.size(), "1");
   if (sizes.size() != names.size() || types.size() != names.size() || counts.size() != names.size()) {
-    fail("has lines FIELDS, SIZE, TYPE and COUNT of different lengths");
+    badPcdHeader("has lines FIELDS, SIZE, TYPE and COUNT of different lengths");
   }
   std::vector<PcdField> fields;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const std::uint64_t size = headerNumber(sizes[i], "SIZE"), count = headerNumber(counts[i], "COUNT");
     const bool real = types[i] == "F" && (size == 4 || size == 8);
     const bool whole = (types[i] == "I" || types[i] == "U") && (size == 1 || size == 2 || size == 4 || size == 8);
-    if (!real && !whole) fail("says TYPE " + types[i] + " of SIZE " + sizes[i] + " for field '" + names[i] + "'");
-    if (count < 1 || count > 65536) fail("says COUNT " + counts[i] + " for field '" + names[i] + "'");
+    if (!real && !whole) badPcdHeader("says TYPE " + types[i] + " of SIZE " + sizes[i] + " for field '" + names[i] + "'");
+    if (count < 1 || count > 65536) badPcdHeader("says COUNT " + counts[i] + " for field '" + names[i] + "'");
     fields.push_back({names[i], types[i][0], std::uint32_t(size), std::uint32_t(count)});
   }
   return fields;
@@ -63,7 +63,7 @@ Eigen::Vector3d readViewpoint(const Entries& entries) {
   const Words& words = entry(entries, "VIEWPOINT");
   for (int axis = 0; axis < 3; ++axis) {
     if (words.size() != 7 || !fromText(words[std::size_t(axis)], viewpoint[axis])) {
-      fail("has a VIEWPOINT that is not seven numbers");
+      badPcdHeader("has a VIEWPOINT that is not seven numbers");
     }
   }
   return viewpoint;
@@ -92,7 +92,7 @@ PcdHeader readPcdHeader(std::istream& file) {
   const std::uint64_t height = entries.count("HEIGHT") ? headerNumber(entry(entries, "HEIGHT")[0], "HEIGHT") : 1;
   const std::uint64_t points = headerNumber(entry(entries, "POINTS")[0], "POINTS");
   if (std::max({width, height, points}) > 4294967295u || width * height != points) {
-    fail("says WIDTH " + std::to_string(width) + ", HEIGHT " + std::to_string(height) + " and POINTS " +
+    badPcdHeader("says WIDTH " + std::to_string(width) + ", HEIGHT " + std::to_string(height) + " and POINTS " +
          std::to_string(points) + ", which do not fit");
   }
   header.width = std::uint32_t(width);
@@ -101,7 +101,7 @@ PcdHeader readPcdHeader(std::istream& file) {
   const std::string& data = entry(entries, "DATA")[0];
   const Words kinds = {"ascii", "binary", "binary_compressed"};
   const auto kind = std::find(kinds.begin(), kinds.end(), data);
-  if (kind == kinds.end()) fail("says DATA " + data + "; known are ascii, binary and binary_compressed");
+  if (kind == kinds.end()) badPcdHeader("says DATA " + data + "; known are ascii, binary and binary_compressed");
   header.data = PcdData(kind - kinds.begin());
   return header;
 }

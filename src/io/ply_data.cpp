@@ -15,7 +15,7 @@
 namespace sks {
 namespace {
 
-[[noreturn]] void fail(const std::string& message) {
+[[noreturn]] void badPly(const std::string& message) {
   throw Error(ErrorCode::bad_data, message);
 }
 
@@ -50,11 +50,11 @@ private:
   double read() {
     if (format_ == PlyFormat::ascii) {
       const double value = readWord();
-      if (std::is_integral_v<T> && !std::isfinite(value)) fail("it holds '" + word_ + "' for a whole number");
+      if (std::is_integral_v<T> && !std::isfinite(value)) badPly("it holds '" + word_ + "' for a whole number");
       return value;
     }
     char bytes[sizeof(T)];
-    if (!file_.read(bytes, sizeof(T))) fail("it is truncated");
+    if (!file_.read(bytes, sizeof(T))) badPly("it is truncated");
     if (format_ == PlyFormat::binary_big_endian) std::reverse(bytes, bytes + sizeof(T));
     T value;
     std::memcpy(&value, bytes, sizeof(T));
@@ -63,8 +63,8 @@ private:
 
   double readWord() {
     double value = 0;
-    if (!(file_ >> word_)) fail("it is truncated");
-    if (!parseNumber(word_, value)) fail("it holds '" + word_ + "', no number");
+    if (!(file_ >> word_)) badPly("it is truncated");
+    if (!parseNumber(word_, value)) badPly("it holds '" + word_ + "', no number");
     return value;
   }
 
@@ -82,7 +82,7 @@ void readInstance(Values& values, const PlyElement& element, std::vector<double>
       continue;
     }
     const double count = values.next(property.count_type);
-    if (!(count >= 0 && count <= double(std::numeric_limits<std::uint32_t>::max()))) fail("a list has a wrong length");
+    if (!(count >= 0 && count <= double(std::numeric_limits<std::uint32_t>::max()))) badPly("a list has a wrong length");
     for (std::uint64_t i = 0; i < std::uint64_t(count); ++i) values.next(property.type);
     row.push_back(0);
   }
@@ -109,10 +109,10 @@ std::array<std::size_t, 3> coordinates(const PlyElement& vertices) {
   const auto indices = indicesOf(vertices, names);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::string name = std::string("property '") + names[i] + "'";
-    if (indices[i] == absent) fail("its vertices have no " + name);
+    if (indices[i] == absent) badPly("its vertices have no " + name);
     const PointField::Type type = vertices.properties[indices[i]].type;
     if (type != PointField::float32 && type != PointField::float64) {
-      fail(name + " of its vertices holds integers; coordinates must be float or double");
+      badPly(name + " of its vertices holds integers; coordinates must be float or double");
     }
   }
   return indices;
@@ -124,7 +124,7 @@ std::array<std::size_t, 3> channels(const PlyElement& vertices) {
   if (!complete(indices)) indices = indicesOf(vertices, {"diffuse_red", "diffuse_green", "diffuse_blue"});
   for (const std::size_t i : indices) {
     if (i != absent && vertices.properties[i].type != PointField::uint8) {
-      fail("property '" + vertices.properties[i].name + "' of its vertices must be uchar");
+      badPly("property '" + vertices.properties[i].name + "' of its vertices must be uchar");
     }
   }
   return indices;
@@ -188,7 +188,7 @@ Cloud readPly(std::istream& file, std::uint64_t file_size, double scale) {
       }
     }
   }
-  if (!has_vertices) fail("its PLY header has no element vertex");
+  if (!has_vertices) badPly("its PLY header has no element vertex");
   return cloud;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-[[noreturn]] void fail(const std::string& message) {
+[[noreturn]] void badPlyHeader(const std::string& message) {
   throw Error(ErrorCode::bad_data, "its PLY header " + message);
 }
 
@@ -25,21 +25,21 @@ PointField::Type typeOf(const std::string& name) {
       {"float", PointField::float32},  {"float32", PointField::float32}, {"double", PointField::float64},
       {"float64", PointField::float64}};
   const auto found = types.find(name);
-  if (found == types.end()) fail("has a property of the unknown type '" + name + "'");
+  if (found == types.end()) badPlyHeader("has a property of the unknown type '" + name + "'");
   return found->second;
 }
 
 PlyFormat formatOf(const std::string& name) {
   const Words names = {"ascii", "binary_little_endian", "binary_big_endian"};
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) fail("has the unknown format '" + name + "'");
+  if (found == names.end()) badPlyHeader("has the unknown format '" + name + "'");
   return PlyFormat(found - names.begin());
 }
 
 PlyProperty propertyOf(const Words& words) {
   if (words.size() == 3) return {words[2], typeOf(words[1])};
   if (words.size() == 5 && words[1] == "list") return {words[4], typeOf(words[3]), true, typeOf(words[2])};
-  fail("has a property without a type or name");
+  badPlyHeader("has a property without a type or name");
 }
 
 }  // namespace
@@ -48,20 +48,20 @@ PlyHeader readPlyHeader(std::istream& file) {
   PlyHeader header;
   bool has_format = false;
   for (Words words; words.empty() || words[0] != "end_header";) {
-    if (!readHeaderLine(file, words)) fail("has no line end_header");
+    if (!readHeaderLine(file, words)) badPlyHeader("has no line end_header");
     const std::string keyword = words.empty() ? "" : words[0];
     if (keyword == "format" && words.size() > 1) {
       header.format = formatOf(words[1]);
       has_format = true;
     } else if (keyword == "element") {
-      if (words.size() != 3) fail("has an element without a name or count");
+      if (words.size() != 3) badPlyHeader("has an element without a name or count");
       header.elements.push_back({words[1], headerNumber(words[2], "element " + words[1]), {}});
     } else if (keyword == "property") {
-      if (header.elements.empty()) fail("has a property before the first element");
+      if (header.elements.empty()) badPlyHeader("has a property before the first element");
       header.elements.back().properties.push_back(propertyOf(words));
     }
   }
-  if (!has_format) fail("has no line format");
+  if (!has_format) badPlyHeader("has no line format");
   return header;
 }
 

@@ -9,7 +9,7 @@
 namespace sks {
 namespace {
 
-[[noreturn]] void fail(const std::string& message) {
+[[noreturn]] void badFields(const std::string& message) {
   throw Error(ErrorCode::bad_data, message);
 }
 
@@ -27,7 +27,7 @@ std::string fieldNames(const PointBlock& block) {
 
 void checkInside(const PointBlock& block, const PointField& field, std::size_t bytes) {
   if (field.offset > block.point_step || block.point_step - field.offset < bytes) {
-    fail("field '" + field.name + "' lies outside the " + std::to_string(block.point_step) + " bytes of a point");
+    badFields("field '" + field.name + "' lies outside the " + std::to_string(block.point_step) + " bytes of a point");
   }
 }
 
@@ -35,7 +35,7 @@ void checkLengths(const PointBlock& block) {
   const std::uint64_t row = std::uint64_t(block.width) * block.point_step;
   const std::uint64_t needed = block.height == 0 ? 0 : (block.height - 1) * std::uint64_t(block.row_step) + row;
   if (block.point_step == 0 || (block.height > 1 && block.row_step < row) || needed > block.size) {
-    fail("it says " + std::to_string(block.width) + " x " + std::to_string(block.height) + " points of " +
+    badFields("it says " + std::to_string(block.width) + " x " + std::to_string(block.height) + " points of " +
          std::to_string(block.point_step) + " bytes, but holds " + std::to_string(block.size) + " bytes");
   }
 }
@@ -88,20 +88,20 @@ Cloud toCloud(const PointBlock& block, double scale) {
   const char* const axes[] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis) {
     const PointField* field = find(block, axes[axis]);
-    if (!field) fail(std::string("there is no field '") + axes[axis] + "'; its fields are " + fieldNames(block));
+    if (!field) badFields(std::string("there is no field '") + axes[axis] + "'; its fields are " + fieldNames(block));
     if (field->type == PointField::float32) {
       readAxis<float>(block, *field, axis, scale, cloud);
     } else if (field->type == PointField::float64) {
       readAxis<double>(block, *field, axis, scale, cloud);
     } else {
-      fail(std::string("field '") + axes[axis] + "' holds integers; coordinates must be float or double");
+      badFields(std::string("field '") + axes[axis] + "' holds integers; coordinates must be float or double");
     }
   }
   const PointField* color = find(block, "rgb");
   if (!color) color = find(block, "rgba");
   if (!color) return cloud;
   if (color->type < PointField::int32 || color->type > PointField::float32) {
-    fail("field '" + color->name + "' must pack a colour into four bytes (float or uint32)");
+    badFields("field '" + color->name + "' must pack a colour into four bytes (float or uint32)");
   }
   checkInside(block, *color, 4);
   cloud.colors.resize(cloud.points.size());

@@ -16,7 +16,7 @@
 namespace sks::tools {
 namespace {
 
-struct Options {
+struct ClassifyOptions {
   std::string dataset;
   MethodOption method;
   CodebookOptions codebook;
@@ -40,7 +40,7 @@ void warnOfUntrained(const DataSet& data_set, const std::vector<std::string>& tr
   }
 }
 
-void run(Options& options) {
+void run(ClassifyOptions& options) {
   std::shared_ptr<const Codebook> codebook = options.codebook.read();
   Settings settings = startingSettings(codebook.get());
   options.method.applyForIsolatedObjects(options.settings, settings);
@@ -68,7 +68,7 @@ void run(Options& options) {
 void addClassify(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "classify", "trains unless given a codebook, and says which object each isolated cloud under 'tests' is");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ClassifyOptions>();
   command->add_option("--dataset,-d", options->dataset, "data set file (YAML) with tests")
       ->required()
       ->type_name("FILE");

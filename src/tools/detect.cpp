@@ -20,7 +20,7 @@
 namespace sks::tools {
 namespace {
 
-struct Options {
+struct DetectOptions {
   std::string codebook;
   std::vector<std::string> clouds;
   double scale = 1;
@@ -30,7 +30,7 @@ struct Options {
 };
 
 /// out.png for the only cloud; out_1.png, out_2.png ... for several.
-std::string imagePath(const Options& options, std::size_t index) {
+std::string imagePath(const DetectOptions& options, std::size_t index) {
   if (options.clouds.size() == 1) return options.image;
   const std::filesystem::path path(options.image);
   const std::string name = path.stem().string() + "_" + std::to_string(index + 1) + path.extension().string();
@@ -70,7 +70,7 @@ DetectionResult detect(const Detector& detector, const std::string& path, const 
   }
 }
 
-void run(const Options& options) {
+void run(const DetectOptions& options) {
   const std::shared_ptr<const Codebook> codebook = readCodebook(options.codebook);
   Settings settings = codebook->settings;
   options.settings.apply(settings);
@@ -108,7 +108,7 @@ void run(const Options& options) {
 
 void addDetect(CLI::App& app) {
   CLI::App* command = app.add_subcommand("detect", "finds the objects of a codebook in point clouds");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<DetectOptions>();
   command->add_option("--codebook,-b", options->codebook, "trained codebook (*.sks)")->required()->type_name("FILE");
   command->add_option("clouds", options->clouds, "PCD or PLY files")->required()->type_name("CLOUD");
   command->add_option("--scale", options->scale, "factor from the clouds' unit to metres: 0.001 for millimetres")

@@ -18,7 +18,7 @@
 namespace sks::tools {
 namespace {
 
-struct Options {
+struct EvaluateOptions {
   std::string dataset;
   MethodOption method;
   std::string plot;
@@ -28,7 +28,7 @@ struct Options {
   JsonOption json;
 };
 
-void run(Options& options) {
+void run(EvaluateOptions& options) {
   std::shared_ptr<const Codebook> codebook = options.codebook.read();
   Settings settings = codebook ? codebook->settings : Settings();
   options.method.applyForScenes(options.settings, settings);
@@ -67,7 +67,7 @@ void run(Options& options) {
 void addEvaluate(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "evaluate", "trains unless given a codebook, detects in every scene of a data set and scores what was found");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<EvaluateOptions>();
   command->add_option("--dataset,-d", options->dataset, "data set file (YAML) with the ground truth")
       ->required()
       ->type_name("FILE");

@@ -10,16 +10,16 @@
 namespace sks::tools {
 namespace {
 
-struct Options {
+struct InfoOptions {
   std::string codebook;
   JsonOption json;
 };
 
-void addCodebook(CLI::App& command, Options& options) {
+void addCodebook(CLI::App& command, InfoOptions& options) {
   command.add_option("codebook", options.codebook, "codebook file (*.sks)")->required()->type_name("FILE");
 }
 
-void runInfo(const Options& options) {
+void runInfo(const InfoOptions& options) {
   const auto codebook = readCodebook(options.codebook);
   options.json.write(codebookJson(options.codebook, *codebook));
   if (options.json.onStdout()) return;
@@ -27,7 +27,7 @@ void runInfo(const Options& options) {
 }
 
 /// Reading checks the file; making a detector checks the descriptors.
-void runVerify(const Options& options) {
+void runVerify(const InfoOptions& options) {
   const auto codebook = readCodebook(options.codebook);
   const Detector detector(codebook, codebook->settings);
   print(options.codebook + ": whole, " + std::to_string(codebook->objects.size()) + " objects, " +
@@ -39,7 +39,7 @@ void runVerify(const Options& options) {
 
 void addInfo(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "shows what a codebook holds");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoOptions>();
   addCodebook(*command, *options);
   options->json.add(*command);
   command->callback([options] { runInfo(*options); });
@@ -47,7 +47,7 @@ void addInfo(CLI::App& app) {
 
 void addVerify(CLI::App& app) {
   CLI::App* command = app.add_subcommand("verify", "checks that a codebook is whole and can be used");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InfoOptions>();
   addCodebook(*command, *options);
   command->callback([options] { runVerify(*options); });
 }

@@ -15,18 +15,18 @@ namespace {
 
 constexpr const char* script = "scripts/plot_keypoints.py";
 
-struct Options {
+struct KeypointsOptions {
   std::string dataset;
   std::string plot;
   SettingsOptions settings;
   JsonOption json;
 };
 
-std::string csvFile(const Options& options) {
+std::string csvFile(const KeypointsOptions& options) {
   return (std::filesystem::path(options.plot) / "keypoints.csv").string();
 }
 
-void run(const Options& options) {
+void run(const KeypointsOptions& options) {
   Settings settings;
   options.settings.apply(settings);
   const DataSet data_set = loadDataSet(options.dataset);
@@ -55,7 +55,7 @@ void run(const Options& options) {
 void addKeypoints(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "keypoints", "how well grid, SKS and ISS keypoints of each object are found again in each scene");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<KeypointsOptions>();
   command->add_option("--dataset,-d", options->dataset, "data set file (YAML) with poses in its ground truth")
       ->required()
       ->type_name("FILE");

@@ -11,7 +11,7 @@
 namespace sks::tools {
 namespace {
 
-struct Options {
+struct ListOptions {
   bool yaml = false;
   bool markdown = false;
   SettingsOptions settings;
@@ -56,7 +56,7 @@ nlohmann::json jsonOf(const Settings& settings) {
   return list;
 }
 
-void run(const Options& options) {
+void run(const ListOptions& options) {
   Settings settings;
   options.settings.apply(settings);
   options.json.write(jsonOf(settings));
@@ -68,7 +68,7 @@ void run(const Options& options) {
 
 void addSettings(CLI::App& app) {
   CLI::App* command = app.add_subcommand("settings", "lists all settings with their values, units and ranges");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ListOptions>();
   CLI::Option* yaml = command->add_flag("--yaml", options->yaml, "as a settings file for --config, with comments");
   command->add_flag("--markdown", options->markdown, "as a Markdown table")->excludes(yaml);
   options->settings.add(*command);

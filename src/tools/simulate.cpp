@@ -17,7 +17,7 @@
 namespace sks::tools {
 namespace {
 
-struct Options {
+struct SimulateOptions {
   std::string output;
   MeshOptions meshes;
   int scenes = 10;
@@ -31,7 +31,7 @@ struct Options {
   std::unique_ptr<BagRecorder> bagRecorder() const;
 };
 
-std::unique_ptr<BagRecorder> Options::bagRecorder() const {
+std::unique_ptr<BagRecorder> SimulateOptions::bagRecorder() const {
   if (bag_option->count() == 0) return nullptr;
   if (repeat < 1 || repeat > 100000) {
     throw Error(ErrorCode::bad_usage, "--repeat " + std::to_string(repeat) + " must be in [1, 100000]");
@@ -50,7 +50,7 @@ std::vector<SceneModel> loadModels(const std::vector<TrainingEntry>& entries) {
   return models;
 }
 
-void run(const Options& options) {
+void run(const SimulateOptions& options) {
   if (!options.meshes.any()) {
     throw Error(ErrorCode::bad_usage, "there is nothing to simulate: give --builtin or --mesh NAME=FILE");
   }
@@ -87,7 +87,7 @@ void run(const Options& options) {
 void addSimulate(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "simulate", "cluttered table scenes with exact ground truth, seen by a virtual RGB-D camera, as a data set");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateOptions>();
   command->add_option("--output,-o", options->output, "folder for dataset.yaml and scenes/")
       ->required()
       ->type_name("DIR");

@@ -17,7 +17,7 @@
 namespace sks::tools {
 namespace {
 
-struct Options {
+struct TrainOptions {
   std::string dataset;
   std::string output;
   std::string name;
@@ -28,7 +28,7 @@ struct Options {
 };
 
 /// What the data set file lists, then the meshes of the command line.
-DataSet trainingSet(const Options& options) {
+DataSet trainingSet(const TrainOptions& options) {
   DataSet data_set;
   data_set.name = "meshes";
   if (!options.dataset.empty()) {
@@ -44,7 +44,7 @@ DataSet trainingSet(const Options& options) {
   return data_set;
 }
 
-void run(const Options& options) {
+void run(const TrainOptions& options) {
   Settings settings;
   options.settings.apply(settings);
   const DataSet data_set = trainingSet(options);
@@ -71,7 +71,7 @@ void run(const Options& options) {
 void addTrain(CLI::App& app) {
   CLI::App* command =
       app.add_subcommand("train", "trains a codebook from the training clouds of a data set and from meshes");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TrainOptions>();
   command->add_option("--dataset,-d", options->dataset, "data set file (YAML) that lists the training clouds")
       ->type_name("FILE");
   command->add_option("--output,-o", options->output, "codebook file to write (*.sks)")->required()->type_name("FILE");

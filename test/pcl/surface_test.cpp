@@ -17,7 +17,7 @@
 
 namespace {
 
-sks::Surface prepare(const sks::Cloud& cloud) {
+sks::Surface prepareScene(const sks::Cloud& cloud) {
   return sks::prepareSurface(cloud, {}, sks::Orientation::sensor, 1);
 }
 
@@ -36,7 +36,7 @@ TEST(Normals, EqualThoseOfPcl) {
     if (p.allFinite()) object.points.push_back(p);
   }
   for (const sks::Cloud& cloud : {sks::test::bumps(), object}) {
-    const sks::Surface surface = prepare(cloud);
+    const sks::Surface surface = prepareScene(cloud);
     pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
     estimation.setInputCloud(sks::test::pclPoints(surface.positions()));
     estimation.setSearchMethod(pcl::search::KdTree<pcl::PointXYZ>::Ptr(new pcl::search::KdTree<pcl::PointXYZ>));
@@ -55,7 +55,7 @@ TEST(Normals, EqualThoseOfPcl) {
 }
 
 TEST(Curvature, EqualsPclsPrincipalCurvatures) {
-  const sks::Surface surface = prepare(sks::test::bumps());
+  const sks::Surface surface = prepareScene(sks::test::bumps());
   const auto points = sks::test::pclPoints(surface.positions());
   pcl::PrincipalCurvaturesEstimation<pcl::PointXYZ, pcl::Normal, pcl::PrincipalCurvatures> estimation;
   pcl::search::KdTree<pcl::PointXYZ> tree;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double steepness = 10;         // of the weights
 constexpr double distance_floor = 1e-6;  // so that equal descriptors weigh equally
-constexpr float nothing = std::numeric_limits<float>::infinity();
+constexpr float infinite = std::numeric_limits<float>::infinity();
 
 /// @param of_object nearest words of one query, one for each object
 void keepNearly(const Match* of_object, std::size_t objects, double ambiguity, std::vector<Match>& kept) {
@@ -21,7 +21,7 @@ void keepNearly(const Match* of_object, std::size_t objects, double ambiguity, s
     return std::make_pair(a.distance, a.word) < std::make_pair(b.distance, b.word);
   };
   const Match nearest = *std::min_element(of_object, of_object + objects, nearer);
-  if (nearest.distance == nothing) return;
+  if (nearest.distance == infinite) return;
   for (std::size_t i = 0; i < objects; ++i) {
     Match match = of_object[i];
     const bool first = match.word == nearest.word && match.distance == nearest.distance;

@@ -18,7 +18,7 @@
 namespace sks::tools {
 namespace {
 
-struct Options {
+struct BagEvaluateOptions {
   std::string bag;
   std::string data_set;
   std::string detections;
@@ -41,7 +41,7 @@ std::map<ros::Time, ros::Time> cloudStamps(const BagFile& bag, const std::string
 }
 
 /// Stamps of the clouds where there are some, else of the detections.
-std::vector<ros::Time> stampsOf(const BagFile& bag, const Options& options, const RecordedDetections& found) {
+std::vector<ros::Time> stampsOf(const BagFile& bag, const BagEvaluateOptions& options, const RecordedDetections& found) {
   std::vector<ros::Time> stamps;
   if (!options.topic.empty() || !bag.topicsOf("sensor_msgs/PointCloud2").empty()) {
     for (const auto& [stamp, recorded] : cloudStamps(bag, findCloudTopic(bag, options.topic))) stamps.push_back(stamp);
@@ -51,7 +51,7 @@ std::vector<ros::Time> stampsOf(const BagFile& bag, const Options& options, cons
   return stamps;
 }
 
-RecordedTruth findTruth(const BagFile& bag, const Options& options, const std::string& ground_truth,
+RecordedTruth findTruth(const BagFile& bag, const BagEvaluateOptions& options, const std::string& ground_truth,
                         const RecordedDetections& found) {
   if (!options.data_set.empty()) {
     const DataSet data_set = loadDataSet(options.data_set);
@@ -82,7 +82,7 @@ SceneClouds cloudsFromBag(const BagFile& bag, const std::string& topic, const Re
   };
 }
 
-void run(const Options& options) {
+void run(const BagEvaluateOptions& options) {
   const BagFile bag(options.bag);
   options.json.check();
   const std::string clouds = options.plot.empty() ? "" : findCloudTopic(bag, options.topic);
@@ -121,7 +121,7 @@ void run(const Options& options) {
 void addBagEvaluate(CLI::App& bag) {
   CLI::App* command = bag.add_subcommand(
       "evaluate", "scores recorded detections against the ground truth in the bag or in a data set file");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BagEvaluateOptions>();
   command->add_option("bag", options->bag, "bag file")->required()->type_name("FILE");
   CLI::Option* data_set = command
                               ->add_option("--dataset,-d", options->data_set,

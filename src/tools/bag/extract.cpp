@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct BagExtractOptions {
   std::string bag;
   std::string output;
   std::string topic;
@@ -78,14 +78,14 @@ std::optional<Cloud> usableCloud(const sensor_msgs::PointCloud2& message, const 
   }
 }
 
-void checkRange(const Options& options) {
+void checkRange(const BagExtractOptions& options) {
   if (options.every < 1) throw Error(ErrorCode::bad_usage, "--every 0: must be at least 1");
   if (!(options.from >= 0 && options.from < options.to)) {
     throw Error(ErrorCode::bad_usage, "--from and --to: need 0 <= from < to, in seconds from the bag's beginning");
   }
 }
 
-void run(const Options& options) {
+void run(const BagExtractOptions& options) {
   checkRange(options);
   const BagFile bag(options.bag);
   const std::string topic = findCloudTopic(bag, options.topic);
@@ -117,7 +117,7 @@ void run(const Options& options) {
 
 void addBagExtract(CLI::App& bag) {
   CLI::App* command = bag.add_subcommand("extract", "cuts clouds out of a bag, as PCD files and a data set file");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BagExtractOptions>();
   command->add_option("bag", options->bag, "bag file")->required()->type_name("FILE");
   command->add_option("--output,-o", options->output, "folder for dataset.yaml and scenes/")
       ->required()

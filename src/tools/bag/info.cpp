@@ -11,12 +11,12 @@
 namespace sks::tools {
 namespace {
 
-struct Options {
+struct BagInfoOptions {
   std::string bag;
   JsonOption json;
 };
 
-void run(const Options& options) {
+void run(const BagInfoOptions& options) {
   options.json.check();
   const BagFile bag(options.bag);
   ProgressBar bar;
@@ -34,7 +34,7 @@ void run(const Options& options) {
 void addBagInfo(CLI::App& bag) {
   CLI::App* command =
       bag.add_subcommand("info", "checks clouds, stamps, transforms and camera: what the node would complain about");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<BagInfoOptions>();
   command->add_option("bag", options->bag, "bag file")->required()->type_name("FILE");
   options->json.add(*command);
   command->callback([options] { run(*options); });
