@@ -20,9 +20,9 @@ using test::errorOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-constexpr float spacing = 0.006f;
+constexpr float class_spacing = 0.006f;
 
-Settings shapeSettings() {
+Settings classSettings() {
   Settings settings;
   settings.surface.normal_radius = 0.015;
   settings.keypoints.grid_size = 0.03;
@@ -33,33 +33,33 @@ Settings shapeSettings() {
   return settings;
 }
 
-std::shared_ptr<const Codebook> shapes(ViewKind kind = ViewKind::model) {
+std::shared_ptr<const Codebook> classes(ViewKind kind = ViewKind::model) {
   const auto sample = [&](const std::string& name, const test::Shape& shape) {
     const Eigen::Isometry3f T = test::poseOf(0, Eigen::Vector3f::UnitX(), {0, 0, 1});
-    const auto load = [=] { return kind == ViewKind::model ? test::model(shape, spacing) : test::view({{shape, T}}); };
+    const auto load = [=] { return kind == ViewKind::model ? test::model(shape, class_spacing) : test::view({{shape, T}}); };
     return TrainingSample{name, name + ".pcd", kind, load, {}, {}};
   };
   return std::make_shared<Codebook>(train({sample("blocks", test::asymmetricShape()),
                                            sample("potato", test::roundedShape()), sample("cup", test::cupShape())},
-                                          shapeSettings(), "shapes"));
+                                          classSettings(), "shapes"));
 }
 
 /// A shape turned and moved; nearer to the origin than a sensor would measure, as models are.
 Cloud turned(const test::Shape& shape) {
-  return test::transformed(test::model(shape, spacing), test::poseOf(70, {1, 2, -1}, {0.03f, 0.01f, -0.02f}));
+  return test::transformed(test::model(shape, class_spacing), test::poseOf(70, {1, 2, -1}, {0.03f, 0.01f, -0.02f}));
 }
 
 TEST(Classifier, NamesTurnedModels) {
-  const Classifier classifier(shapes(), shapeSettings(), ClassBalance::codewords);
+  const Classifier classifier(classes(), classSettings(), ClassBalance::codewords);
   EXPECT_EQ(classifier.classify(turned(test::asymmetricShape()), ViewKind::model).object(), "blocks");
   EXPECT_EQ(classifier.classify(turned(test::roundedShape()), ViewKind::model).object(), "potato");
   EXPECT_EQ(classifier.classify(turned(test::cupShape()), ViewKind::model).object(), "cup");
 }
 
 TEST(Classifier, NamesViews) {
-  const auto codebook = shapes(ViewKind::view);
+  const auto codebook = classes(ViewKind::view);
   EXPECT_EQ(testKind(*codebook), ViewKind::view);
-  const Classifier classifier(codebook, shapeSettings(), ClassBalance::none);
+  const Classifier classifier(codebook, classSettings(), ClassBalance::none);
   const Eigen::Isometry3f T = test::poseOf(15, Eigen::Vector3f::UnitZ(), {0.1f, 0, 1.1f});
   const Classification result = classifier.classify(test::view({{test::asymmetricShape(), T}}), ViewKind::view);
   EXPECT_EQ(result.object(), "blocks");
@@ -67,7 +67,7 @@ TEST(Classifier, NamesViews) {
 
 TEST(Classifier, RanksCandidatesByTheirShareOfTheStrength) {
   const Classification result =
-      Classifier(shapes(), shapeSettings(), ClassBalance::none).classify(turned(test::cupShape()), ViewKind::model);
+      Classifier(classes(), classSettings(), ClassBalance::none).classify(turned(test::cupShape()), ViewKind::model);
   ASSERT_GE(result.candidates.size(), 1u);
   double sum = 0, last = 1;
   for (const Classification::Candidate& candidate : result.candidates) {
@@ -82,15 +82,15 @@ TEST(Classifier, RanksCandidatesByTheirShareOfTheStrength) {
 }
 
 TEST(Classifier, BalanceWeighsDensityByTheRootOfCodewords) {
-  const auto codebook = shapes();
+  const auto codebook = classes();
   std::map<std::string, double> words;
   for (const Codeword& word : codebook->words) words[codebook->objectOf(word)] += 1;
   const Eigen::Isometry3f aside = test::poseOf(0, {1, 0, 0}, {1, 0, 0});
   const Cloud cloud = test::merged(
-      {turned(test::roundedShape()), test::transformed(test::model(test::asymmetricShape(), spacing), aside)});
+      {turned(test::roundedShape()), test::transformed(test::model(test::asymmetricShape(), class_spacing), aside)});
   const auto scores = [&](ClassBalance balance) {
     std::map<std::string, double> of;
-    for (const auto& c : Classifier(codebook, shapeSettings(), balance).classify(cloud, ViewKind::model).candidates) {
+    for (const auto& c : Classifier(codebook, classSettings(), balance).classify(cloud, ViewKind::model).candidates) {
       of[c.object] = c.score;
     }
     return of;
@@ -104,9 +104,9 @@ TEST(Classifier, BalanceWeighsDensityByTheRootOfCodewords) {
 }
 
 TEST(Classifier, OtherObjectsNearlyAsNearVoteWithLessWeight) {
-  const auto codebook = shapes();
+  const auto codebook = classes();
   const auto classify = [&](double ambiguity) {
-    Settings settings = shapeSettings();
+    Settings settings = classSettings();
     settings.matching.ambiguity = ambiguity;
     return Classifier(codebook, settings, ClassBalance::none).classify(turned(test::cupShape()), ViewKind::model);
   };
@@ -123,8 +123,8 @@ TEST(Classifier, OtherObjectsNearlyAsNearVoteWithLessWeight) {
 }
 
 TEST(Classifier, DoesNotDependOnThreads) {
-  const auto codebook = shapes();
-  Settings settings = shapeSettings();
+  const auto codebook = classes();
+  Settings settings = classSettings();
   settings.matching.ambiguity = 1.3;
   std::vector<std::vector<double>> scores;
   for (const int threads : {1, 3}) {
@@ -138,9 +138,9 @@ TEST(Classifier, DoesNotDependOnThreads) {
 }
 
 TEST(Classifier, RefusesSettingsOfAnotherCodebook) {
-  Settings settings = shapeSettings();
+  Settings settings = classSettings();
   settings.descriptor.radius = 0.1;
-  EXPECT_THAT(errorOf(ErrorCode::incompatible, [&] { Classifier(shapes(), settings, ClassBalance::none); }),
+  EXPECT_THAT(errorOf(ErrorCode::incompatible, [&] { Classifier(classes(), settings, ClassBalance::none); }),
               HasSubstr("descriptor.radius = 0.08 (not 0.1)"));
 }
 

@@ -10,14 +10,14 @@
 namespace sks::test {
 namespace {
 
-const Eigen::Isometry3f T_scene_shape = poseOf(35, {1, 2, 0.5f}, {0, 0, 0.8f});
+const Eigen::Isometry3f T_scene_bumps = poseOf(35, {1, 2, 0.5f}, {0, 0, 0.8f});
 
 /// A training view whose frame is the camera's: its true pose in the scene is the identity.
 class ProjectiveRefinement : public ::testing::Test {
 protected:
   ProjectiveRefinement()
-      : codebook_(train({sampleOf("thing", view({{asymmetricShape(), T_scene_shape}}))}, Settings(), "synthetic")),
-        surface_(prepared(view({{asymmetricShape(), T_scene_shape}}, 0.0025f, 240, 200))),
+      : codebook_(train({sampleOf("thing", view({{asymmetricShape(), T_scene_bumps}}))}, Settings(), "synthetic")),
+        surface_(prepared(view({{asymmetricShape(), T_scene_bumps}}, 0.0025f, 240, 200))),
         scene_(surface_, Settings()) {}
 
   Eigen::Isometry3d refined(const Eigen::Isometry3d& rough) const {

@@ -17,7 +17,7 @@ std::string usageError(Action action) {
   return sks::test::errorOf(sks::ErrorCode::bad_usage, action);
 }
 
-std::string setError(const std::string& key, const std::string& value) {
+std::string settingError(const std::string& key, const std::string& value) {
   return usageError([&] {
     sks::Settings settings;
     sks::setSetting(settings, key, value);
@@ -128,7 +128,7 @@ TEST(Settings, TextDoesNotDependOnTheLocale) {
 }
 
 TEST(Settings, UnknownKeyNamesTheNearest) {
-  EXPECT_EQ(setError("keypoints.discrad", "0.5"),
+  EXPECT_EQ(settingError("keypoints.discrad", "0.5"),
             "unknown setting 'keypoints.discrad': did you mean 'keypoints.discard'?");
   EXPECT_EQ(usageError([] { sks::getSetting(sks::Settings(), "thread"); }),
             "unknown setting 'thread': did you mean 'threads'?");
@@ -140,17 +140,17 @@ TEST(Settings, UnknownKeyNamesTheNearest) {
 }
 
 TEST(Settings, BadTextNamesTypeRangeAndUnit) {
-  EXPECT_EQ(setError("descriptor.radius", "abc"), "descriptor.radius = abc: expected a number in 0.002 to 1 [m]");
-  EXPECT_EQ(setError("ransac.seed", "1.5"), "ransac.seed = 1.5: expected a whole number in 0 to 2147483647");
-  EXPECT_EQ(setError("sanitize.crop", "1"), "sanitize.crop = 1: expected true or false");
-  EXPECT_EQ(setError("descriptor.type", "fpfh"), "descriptor.type = fpfh: expected one of auto, shot, cshot");
-  EXPECT_EQ(setError("keypoints.discard", "1.5"), "keypoints.discard = 1.5 is out of range: 0 to 0.99");
-  EXPECT_EQ(setError("ransac.iterations", "-1"), "ransac.iterations = -1 is out of range: 1 to 100000");
+  EXPECT_EQ(settingError("descriptor.radius", "abc"), "descriptor.radius = abc: expected a number in 0.002 to 1 [m]");
+  EXPECT_EQ(settingError("ransac.seed", "1.5"), "ransac.seed = 1.5: expected a whole number in 0 to 2147483647");
+  EXPECT_EQ(settingError("sanitize.crop", "1"), "sanitize.crop = 1: expected true or false");
+  EXPECT_EQ(settingError("descriptor.type", "fpfh"), "descriptor.type = fpfh: expected one of auto, shot, cshot");
+  EXPECT_EQ(settingError("keypoints.discard", "1.5"), "keypoints.discard = 1.5 is out of range: 0 to 0.99");
+  EXPECT_EQ(settingError("ransac.iterations", "-1"), "ransac.iterations = -1 is out of range: 1 to 100000");
   for (const char* text : {"", " 0.5", "0.5 ", "0.5x", "0,5", "nan", "inf", "1e999", "--1"}) {
-    EXPECT_EQ(setError("keypoints.discard", text),
+    EXPECT_EQ(settingError("keypoints.discard", text),
               std::string("keypoints.discard = ") + text + ": expected a number in 0 to 0.99");
   }
-  EXPECT_EQ(setError("threads", "99999999999"), "threads = 99999999999: expected a whole number in 0 to 256");
+  EXPECT_EQ(settingError("threads", "99999999999"), "threads = 99999999999: expected a whole number in 0 to 256");
 }
 
 TEST(Settings, OldNamesStillWork) {

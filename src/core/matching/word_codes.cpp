@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t leftover = code_size - 1;  // position of what the axes before it leave over
 constexpr float quantization = 1e-3f;            // above the relative error that this leaves in an inner product
-constexpr float rounding = 4e-6f;                // above that of sums in single precision
+constexpr float code_rounding = 4e-6f;                // above that of sums in single precision
 
 }  // namespace
 
@@ -52,7 +52,7 @@ void WordCodes::encode(const float* histogram, HellingerAxes::Projection& projec
   encode(projection, query.vector);
   const float length = std::sqrt(query.vector.squares);
   query.slack = quantization * length * longest_ +
-                rounding * (projection.mass + largest_mass_) * (1 + (length + longest_) / std::sqrt(floor_));
+                code_rounding * (projection.mass + largest_mass_) * (1 + (length + longest_) / std::sqrt(floor_));
 }
 
 }  // namespace sks
