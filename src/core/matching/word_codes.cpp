@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t leftover = code_size - 1;  // position of what the axes before it leave over
 constexpr float quantization = 1e-3f;            // above the relative error that this leaves in an inner product
-constexpr float code_rounding = 4e-6f;                // above that of sums in single precision
+constexpr float code_rounding = 4e-6f;           // above that of sums in single precision
 
 }  // namespace
 

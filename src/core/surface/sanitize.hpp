@@ -18,8 +18,8 @@ struct SanitizeReport {
   std::size_t kept = 0;
 };
 
-/// The settings for a cloud whose normals are to point this way: a full model's origin is no sensor, so that no point is
-/// too near to it.
+/// The settings for a cloud whose normals are to point this way: a full model's origin is no sensor, so that no point
+/// is too near to it.
 SanitizeSettings sanitizingFor(Orientation orientation, SanitizeSettings settings);
 
 /// The one gate through which every cloud comes: returns the usable points of `cloud`, in their order.
