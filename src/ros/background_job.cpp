@@ -74,7 +74,7 @@ bool BackgroundJob::running() const {
 }
 
 int BackgroundJob::threads() {
-  return std::max(1, int(std::thread::hardware_concurrency()) - 1);
+  return std::max(1, sks::threadCount(sks::Settings()) - 1);
 }
 
 }  // namespace sks_detector
