@@ -11,7 +11,7 @@
 namespace sks {
 namespace {
 
-constexpr double max_rows = 4e6;  // 16 MB of row table, whatever the extent of the points
+constexpr double max_rows = 4e6;       // 16 MB of row table, whatever the extent of the points
 constexpr float least_width = 1e-30f;  // [m] of what is put in buckets: the inverse of less may overflow
 
 Eigen::AlignedBox3f boundsOf(const std::vector<Eigen::Vector3f>& points, int threads) {
