@@ -189,6 +189,13 @@ class Node:
         with open("/proc/%d/status" % self._process.pid) as status:
             return next(int(line.split()[1]) for line in status if line.startswith("VmRSS")) / 1024
 
+    def threads(self):
+        with open("/proc/%d/status" % self._process.pid) as status:
+            return next(int(line.split()[1]) for line in status if line.startswith("Threads"))
+
+    def signal(self, which):
+        self._process.send_signal(which)
+
     def output(self):
         return "".join(self._lines)
 
