@@ -16,9 +16,9 @@ protected:
     now_ += std::chrono::duration_cast<SequenceGaps::Clock::duration>(std::chrono::duration<double>(seconds));
     return gaps_.lostBefore(publisher, number, now_);
   }
-  std::uint32_t lostOf(const std::vector<std::uint32_t>& numbers, double seconds = 0.1) {
+  std::uint32_t lostOf(const std::vector<std::uint32_t>& numbers) {
     std::uint32_t sum = 0;
-    for (const std::uint32_t number : numbers) sum += lost("camera", number, seconds);
+    for (const std::uint32_t number : numbers) sum += lost("camera", number);
     return sum;
   }
 
@@ -44,7 +44,7 @@ TEST_F(SequenceGapsTest, KeepPublishersApart) {
 
 TEST_F(SequenceGapsTest, NumbersThatGoBackOrStandStillTellNothing) {
   EXPECT_EQ(lostOf({100, 101, 102, 0, 1, 2}), 0u) << "a new start";
-  EXPECT_EQ(lostOf({50, 51, 20, 21, 50, 51}), 0u) << "a bag that is played again";
+  EXPECT_EQ(lostOf({2, 3, 4, 2, 3, 4, 5}), 0u) << "a bag that is played again";
   EXPECT_EQ(lostOf({0, 0, 0, 0}), 0u) << "no numbers";
   EXPECT_EQ(lostOf({1, 4000000000u, 17, 3000000000u, 90000, 5}), 0u) << "numbers at random";
   EXPECT_EQ(lostOf({100, 5, 101, 6, 102, 7}), 0u) << "two cameras behind one relay";
