@@ -19,7 +19,7 @@
 namespace sks {
 namespace {
 
-constexpr int most = 16;
+constexpr int most_threads = 16;
 
 std::shared_ptr<const Codebook> bumpsCodebook() {
   static const auto codebook = std::make_shared<const Codebook>(
@@ -45,7 +45,7 @@ std::string outcome(const Detector& detector, const Cloud& cloud) {
 std::vector<Detector> detectorsOfAnyThreads() {
   std::vector<Detector> detectors;
   const Detector first(bumpsCodebook());
-  for (int threads = 1; threads <= most; ++threads) {
+  for (int threads = 1; threads <= most_threads; ++threads) {
     Settings settings = bumpsCodebook()->settings;
     settings.threads = threads;
     detectors.push_back(first.withSettings(settings));
@@ -56,7 +56,7 @@ std::vector<Detector> detectorsOfAnyThreads() {
 void expectOneOutcome(const Cloud& cloud, const std::string& what) {
   static const std::vector<Detector> detectors = detectorsOfAnyThreads();
   const std::string wanted = outcome(detectors[0], cloud);
-  for (int threads = 2; threads <= most; ++threads) {
+  for (int threads = 2; threads <= most_threads; ++threads) {
     EXPECT_EQ(outcome(detectors[std::size_t(threads - 1)], cloud), wanted) << what << ", " << threads << " threads";
   }
 }
@@ -132,7 +132,7 @@ TEST(AnyThreads, FindTheSameInCloudsOfAnyKind) {
 TEST(AnyThreads, TrainTheSame) {
   for (const ViewKind kind : {ViewKind::view, ViewKind::model}) {
     std::vector<float> first;
-    for (int threads = 1; threads <= most; ++threads) {
+    for (int threads = 1; threads <= most_threads; ++threads) {
       Settings settings;
       settings.threads = threads;
       const Codebook codebook =

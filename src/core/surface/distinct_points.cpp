@@ -11,7 +11,7 @@ namespace sks {
 namespace {
 
 /// A part of a position's hash in the upper half, by which entries are sorted, and the place in `indices` in the lower.
-using Entry = std::uint64_t;
+using HashedPlace = std::uint64_t;
 
 constexpr int hash_bits = 32;
 constexpr std::size_t points_per_bucket = 16;  // about
@@ -27,11 +27,11 @@ std::uint64_t hashOf(const Eigen::Vector3f& point) {
   return mixed ^ mixed >> 29;
 }
 
-std::uint32_t placeOf(Entry entry) {
+std::uint32_t placeOf(HashedPlace entry) {
   return std::uint32_t(entry);
 }
 
-bool sameHash(Entry a, Entry b) {
+bool sameHash(HashedPlace a, HashedPlace b) {
   return a >> hash_bits == b >> hash_bits;
 }
 
@@ -43,10 +43,10 @@ public:
                std::vector<char>& distinct)
       : points_(points), indices_(indices), distinct_(distinct) {}
 
-  void markDuplicates(Entry* begin, Entry* end) const {
+  void markDuplicates(HashedPlace* begin, HashedPlace* end) const {
     std::sort(begin, end);
-    for (Entry* first = begin; first != end;) {
-      Entry* last = first + 1;
+    for (HashedPlace* first = begin; first != end;) {
+      HashedPlace* last = first + 1;
       while (last != end && sameHash(*first, *last)) ++last;
       if (last - first > 1) markOfOneHash(first, last);
       first = last;
@@ -54,14 +54,14 @@ public:
   }
 
 private:
-  const Eigen::Vector3f& at(Entry entry) const { return points_[indices_[placeOf(entry)]]; }
+  const Eigen::Vector3f& at(HashedPlace entry) const { return points_[indices_[placeOf(entry)]]; }
 
-  void markOfOneHash(Entry* begin, Entry* end) const {
-    std::sort(begin, end, [&](Entry a, Entry b) {
+  void markOfOneHash(HashedPlace* begin, HashedPlace* end) const {
+    std::sort(begin, end, [&](HashedPlace a, HashedPlace b) {
       const Eigen::Vector3f &p = at(a), &q = at(b);
       return std::make_tuple(p.x(), p.y(), p.z(), a) < std::make_tuple(q.x(), q.y(), q.z(), b);
     });
-    for (Entry* i = begin + 1; i != end; ++i) {
+    for (HashedPlace* i = begin + 1; i != end; ++i) {
       if (at(*i) == at(*(i - 1))) distinct_[placeOf(*i)] = 0;
     }
   }
@@ -76,7 +76,7 @@ private:
 std::vector<std::uint32_t> distinctPoints(const std::vector<Eigen::Vector3f>& points,
                                           const std::vector<std::uint32_t>& indices, int threads) {
   const std::size_t n = indices.size();
-  std::vector<Entry> entries(n);
+  std::vector<HashedPlace> entries(n);
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (std::size_t i = 0; i < n; ++i) entries[i] = hashOf(points[indices[i]]) >> hash_bits << hash_bits | i;
 
@@ -84,7 +84,7 @@ std::vector<std::uint32_t> distinctPoints(const std::vector<Eigen::Vector3f>& po
   while (bits < most_bucket_bits && points_per_bucket << bits < n) ++bits;
   std::vector<std::uint32_t> begin;
   const std::size_t buckets = std::size_t(1) << bits;
-  const auto bucketOf = [bits](Entry entry) { return std::size_t(entry >> (64 - bits)); };
+  const auto bucketOf = [bits](HashedPlace entry) { return std::size_t(entry >> (64 - bits)); };
   entries = sortedByKey(entries, buckets, bucketOf, threads, begin);
   std::vector<char> distinct(n, 1);
   const BucketSearch search(points, indices, distinct);
