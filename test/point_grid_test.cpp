@@ -110,12 +110,12 @@ TEST(PointGrid, IdenticalPointsAreAllFoundInTheirOrder) {
 TEST(PointGrid, StandsAnyPlacesForAnyNumberOfThreads) {
   std::vector<Points> clouds(6);
   for (int i = 0; i < 3000; ++i) {
-    clouds[0].emplace_back(float(i % 60) / 128, float(i / 60) / 128, 1.0f);               // dyadic
-    clouds[1].emplace_back(0.0f, 0.0f, float(i * 7 % 3000) / 4096);                       // on a line, in no order
-    clouds[2].emplace_back(std::ldexp(1.0f, i % 160 - 140), 0.0f, 0.0f);                  // powers of two
-    clouds[3].emplace_back(float(i % 50) * 1e-44f, float(i % 7) * 1e-44f, 0.0f);          // denormal
-    clouds[4].emplace_back(float(i % 50) * 4e4f - 1e6f, float(i % 60) * 3e4f - 9e5f, 0);  // 2000 km
-    clouds[5].emplace_back(0.5f, -0.5f, 1.0f);                                            // one place
+    clouds[0].emplace_back(float(i % 60) / 128, float(i / 60) / 128, 1.0f);              // dyadic
+    clouds[1].emplace_back(0.0f, 0.0f, float(i * 7 % 3000) / 4096);                      // on a line, in no order
+    clouds[2].emplace_back(std::ldexp(1.0f, i % 160 - 140), 0.0f, 0.0f);                 // powers of two
+    clouds[3].emplace_back(float(i % 50) * 1e-44f, float(i % 7) * 1e-44f, 0.0f);         // denormal
+    clouds[4].emplace_back(float(i % 50) - 25, float(i % 60) - 30, i < 9 ? 400.0f : 0);  // wide
+    clouds[5].emplace_back(0.5f, -0.5f, 1.0f);                                           // one place
   }
   for (const Points& points : clouds) {
     for (const double cell : {1e-4, 0.01, 10.0}) {

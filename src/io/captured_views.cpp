@@ -148,7 +148,7 @@ std::vector<std::string> CapturedViews::objects() const {
 
 /// A link that someone put there must not lead out of the folder.
 std::string CapturedViews::objectFolder(const std::string& object) const {
-  return fs::path(confinedPath(object + "/000.pcd", folder_)).parent_path().string();
+  return fs::path(confinedPath(object + "/.view", folder_)).parent_path().string();
 }
 
 }  // namespace sks
