@@ -84,9 +84,9 @@ class DiagnosticsTest(unittest.TestCase):
             rate = rospy.Rate(10)
             for number in range(1, sent):
                 if number == 15:
-                    node.signal(signal.SIGSTOP)
+                    node.send_signal(signal.SIGSTOP)
                 if number == 45:
-                    node.signal(signal.SIGCONT)
+                    node.send_signal(signal.SIGCONT)
                 self.source.send(support.cloud_message(scene))
                 rate.sleep()
             last = self.source.send(support.cloud_message(scene))  # by which it is seen what came before

@@ -29,6 +29,8 @@ class AwayTest(unittest.TestCase):
         self.reconfigure = service("set_parameters", Reconfigure, SOON)
         self.detect = service("detect", Detect, 3 * support.PATIENCE)
         self.away = False
+        self.expect_answers()  # connects them all, as does this
+        self.assertIn("no cloud came", self.detect(PointCloud2(), 0.1).message)
 
     def tearDown(self):
         if self.away:

@@ -205,7 +205,7 @@ class Node:
     def threads(self):
         return threads_of(self._process.pid)
 
-    def signal(self, which):
+    def send_signal(self, which):
         self._process.send_signal(which)
 
     def output(self):
