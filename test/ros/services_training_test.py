@@ -123,7 +123,7 @@ class TrainingServicesTest(services_support.ServicesTest):
         os.remove(os.path.join(folder, "gone/000.pcd"))
         with open(os.path.join(folder, "damaged/000.pcd"), "w") as file:
             file.write("VERSION 0.7\n")
-        log = support.Recorder("/rosout_agg", Log)
+        log = support.Recorder("/rosout", Log)
         support.wait_for(lambda: log.connections() > 0, "the log")
         try:
             trained = self.succeed("train", captured=True)
