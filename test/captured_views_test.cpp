@@ -2,11 +2,16 @@
 #include "io/captured_views.hpp"
 
 #include <filesystem>
+#include <map>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <sks_detector/cloud_io.hpp>
+#include <sks_detector/error.hpp>
 
 #include "error_of.hpp"
 #include "io/file.hpp"
@@ -124,15 +129,82 @@ TEST_F(CapturedViewsTest, RefusesAFolderThatLeadsOut) {
 
 TEST_F(CapturedViewsTest, KeepsADamagedFileAsItIs) {
   views_.add("mug", view(1));
-  for (const char* damaged : {"name: [", "name: c\nunits: m\ntraining: [{object: mug, cloud: gone.pcd, kind: view}]"}) {
+  for (const char* damaged :
+       {"name: [", "name: c\nunits: m\ntraining: [{object: mug, clod: mug/000.pcd, kind: view}]"}) {
     test::writeFile(path("dataset.yaml"), damaged);
-    EXPECT_THAT(errorOf(ErrorCode::bad_file, [&] { views_.add("mug", view(2)); }), HasSubstr("dataset.yaml:"));
-    EXPECT_THAT(errorOf(ErrorCode::bad_file, [&] { views_.remove("mug"); }), HasSubstr("dataset.yaml:"));
+    const ErrorCode code = damaged == std::string("name: [") ? ErrorCode::bad_file : ErrorCode::bad_data;
+    EXPECT_THAT(errorOf(code, [&] { views_.add("mug", view(2)); }), HasSubstr("dataset.yaml:"));
+    EXPECT_THAT(errorOf(code, [&] { views_.remove("mug"); }), HasSubstr("dataset.yaml:"));
     EXPECT_EQ(readTextFile(path("dataset.yaml")), damaged);
   }
   test::writeFile(path("dataset.yaml"),
                   "name: c\nunits: mm\ntraining: [{object: mug, cloud: mug/000.pcd, kind: view}]");
   EXPECT_THAT(errorOf(ErrorCode::bad_usage, [&] { views_.add("mug", view(2)); }), HasSubstr("millimetres"));
+}
+
+TEST_F(CapturedViewsTest, LeavesOutWhatIsGone) {
+  views_.add("mug", view(1));
+  views_.add("box", view(2));
+  views_.add("mug", view(3));
+  views_.add("cup", view(4));
+  fs::remove(path("mug/000.pcd"));
+  fs::remove_all(path("cup"));
+  fs::create_directory(path("cup"));
+  fs::create_directory(path("cup/000.pcd"));  // no file either
+  const DataSet left = views_.read();
+  ASSERT_THAT(left.training, SizeIs(2));
+  EXPECT_EQ(left.training[0].path, path("box/000.pcd"));
+  EXPECT_EQ(left.training[1].path, path("mug/001.pcd"));
+  ASSERT_THAT(left.missing, SizeIs(2));
+  EXPECT_THAT(left.warnings,
+              ElementsAre(testing::AllOf(HasSubstr("dataset.yaml:"), HasSubstr("'" + path("mug/000.pcd") + "'"),
+                                         HasSubstr("'mug'"), HasSubstr("left out")),
+                          HasSubstr("'" + path("cup/000.pcd") + "'")));
+  EXPECT_THAT(views_.objects(), ElementsAre("box", "mug"));
+
+  EXPECT_EQ(views_.add("mug", view(5)).views, 2u);
+  EXPECT_THAT(views_.read().training, SizeIs(3));
+  EXPECT_EQ(views_.remove("cup"), 1u);
+  EXPECT_EQ(views_.remove("mug"), 3u);
+  EXPECT_THAT(views_.read().warnings, IsEmpty());
+  fs::remove(path("box/000.pcd"));
+  EXPECT_THAT(views_.read().training, IsEmpty());
+  EXPECT_THAT(views_.read().missing, SizeIs(1));
+}
+
+TEST_F(CapturedViewsTest, OfSeveralProcessesAreAllKept) {
+  constexpr int processes = 4, each = 12;
+  std::vector<pid_t> children;
+  for (int i = 0; i < processes; ++i) {
+    children.push_back(::fork());
+    if (children.back() != 0) continue;
+    int status = 1;
+    try {
+      CapturedViews views(root_ + "/a/captured");
+      for (int k = 0; k < each; ++k) {
+        views.add(i % 2 == 0 ? "shared" : "own " + std::to_string(i), view(float(i)));
+        if (k % 4 == 3 && i == 3) views.remove("own 3");
+      }
+      status = 0;
+    } catch (const Error&) {
+    }
+    ::_exit(status);
+  }
+  for (const pid_t child : children) {
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+  }
+  const DataSet all = views_.read();
+  EXPECT_THAT(all.warnings, IsEmpty());
+  EXPECT_THAT(all.training, SizeIs(3 * each));  // all of "own 3" were removed
+  std::map<std::string, int> count;
+  for (const TrainingEntry& entry : all.training) {
+    ++count[entry.object];
+    EXPECT_EQ(readCloud(entry.path).size(), 2u);
+  }
+  EXPECT_EQ(count["shared"], 2 * each);
+  EXPECT_EQ(count["own 1"], each);
 }
 
 }  // namespace

@@ -125,3 +125,17 @@ TEST(Normals, DoNotDependOnThreads) {  // trap 9
     }
   }
 }
+
+// Squares of such distances vanish.
+TEST(Normals, OfAModelOfNoSizeAreThereOrNot) {
+  for (const float spacing : {1e-44f, 1e-30f, 1e-20f, 1e-10f}) {
+    std::vector<Eigen::Vector3f> points;
+    for (int i = 0; i < 400; ++i) points.emplace_back(spacing * float(i % 20), spacing * float(i / 20), 0.0f);
+    const sks::Surface one = prepare(sks::test::makeCloud(points), 0.01, sks::Orientation::outward, 1);
+    ASSERT_EQ(one.size(), points.size());
+    for (const int threads : {2, 16}) {
+      const sks::Surface more = prepare(sks::test::makeCloud(points), 0.01, sks::Orientation::outward, threads);
+      EXPECT_EQ(more.source, one.source) << spacing;
+    }
+  }
+}

@@ -2,6 +2,7 @@
 #include <sks_detector/stages/point_grid.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -103,6 +104,31 @@ TEST(PointGrid, IdenticalPointsAreAllFoundInTheirOrder) {
   expectSameNeighbors(same, 0.01, {same[0]}, 0.001f);
   const sks::PointGrid grid(same, 0.01);
   for (std::uint32_t i = 0; i < 50; ++i) EXPECT_EQ(grid.source[i], i);
+}
+
+/// Places at which sizes, buckets or rows may overflow, or in which all points share one of them.
+TEST(PointGrid, StandsAnyPlacesForAnyNumberOfThreads) {
+  std::vector<Points> clouds(6);
+  for (int i = 0; i < 3000; ++i) {
+    clouds[0].emplace_back(float(i % 60) / 128, float(i / 60) / 128, 1.0f);              // dyadic
+    clouds[1].emplace_back(0.0f, 0.0f, float(i * 7 % 3000) / 4096);                      // on a line, in no order
+    clouds[2].emplace_back(std::ldexp(1.0f, i % 160 - 140), 0.0f, 0.0f);                 // powers of two
+    clouds[3].emplace_back(float(i % 50) * 1e-44f, float(i % 7) * 1e-44f, 0.0f);         // denormal
+    clouds[4].emplace_back(float(i % 50) - 25, float(i % 60) - 30, i < 9 ? 400.0f : 0);  // wide
+    clouds[5].emplace_back(0.5f, -0.5f, 1.0f);                                           // one place
+  }
+  for (const Points& points : clouds) {
+    for (const double cell : {1e-4, 0.01, 10.0}) {
+      const sks::PointGrid one(points, cell, 1);
+      ASSERT_EQ(one.size(), points.size());
+      for (const int threads : {2, 3, 8, 16}) EXPECT_EQ(sks::PointGrid(points, cell, threads).source, one.source);
+      for (const float radius : {1e-3f, 0.1f}) {
+        for (const std::size_t i : {0u, 1u, 1499u, 2999u}) {
+          EXPECT_EQ(neighbors(one, points[i], radius), bruteForce(points, points[i], radius)) << cell << " " << radius;
+        }
+      }
+    }
+  }
 }
 
 TEST(PointGrid, IsAPermutationPaddedWithInfinity) {

@@ -396,7 +396,7 @@ std::vector<std::string> bindingConflicts(const Settings& codebook, const Settin
 /// The known key that is nearest to a misspelt one, by edit distance.
 std::string nearestSettingKey(const std::string& key);
 
-/// `settings.threads`, with 0 replaced by the number of cores.
+/// `settings.threads`, 0 replaced by the number of cores; at most so many, or 16 if that is more.
 int threadCount(const Settings& settings);
 
 }  // namespace sks

@@ -4,7 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include <sks_detector/error.hpp>
+
+#include "core/settings/value_text.hpp"
+
 namespace sks::baselines {
+namespace {
+
+constexpr double most_bins = 5e7;  // some 2 GB
+
+}  // namespace
 
 HoughSpace::HoughSpace(const std::vector<Eigen::Vector3d>& votes, double bin_size) : bin_size_(bin_size) {
   Eigen::Vector3d high = votes.front();
@@ -15,7 +24,13 @@ HoughSpace::HoughSpace(const std::vector<Eigen::Vector3d>& votes, double bin_siz
   }
   std::size_t size = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    count_[std::size_t(axis)] = int(std::ceil(coordinate(high, axis) / bin_size));
+    const double count = std::ceil(coordinate(high, axis) / bin_size);
+    if (!(count * double(size) <= most_bins)) {
+      throw Error(ErrorCode::bad_data,
+                  "the votes lie so far apart that their Hough space would have too many bins of " + toText(bin_size) +
+                      " m: crop the cloud (sanitize.max_range, sanitize.crop), or raise the method's bin size");
+    }
+    count_[std::size_t(axis)] = int(count);
     size *= std::size_t(count_[std::size_t(axis)]);
   }
   bins_.resize(size);

@@ -12,6 +12,7 @@
 
 #include "core/pipeline/scene_description.hpp"
 #include "core/pipeline/stopwatch.hpp"
+#include "core/settings/threads.hpp"
 #include "core/surface/sanitize.hpp"
 #include "evaluation/metrics.hpp"
 
@@ -40,7 +41,7 @@ KeypointStudy emptyStudy(const DataSet& data_set, const Settings& settings) {
 class Study {
 public:
   Study(const DataSet& data_set, const Settings& settings)
-      : data_set_(data_set), threads_(threadCount(settings)), study_(emptyStudy(data_set, settings)) {}
+      : data_set_(data_set), threads_(startableThreads(settings)), study_(emptyStudy(data_set, settings)) {}
 
   KeypointStudy run(const Progress& progress) {
     for (std::size_t i = 0; i < data_set_.scenes.size(); ++i) {

@@ -11,6 +11,7 @@
 
 #include "io/confined_path.hpp"
 #include "io/file.hpp"
+#include "io/file_lock.hpp"
 #include "io/yaml_text.hpp"
 
 namespace sks {
@@ -19,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* heading =
-    "# Captured training views. Entries may be deleted while no detector runs; the clouds they name may be, too.\n";
+    "# Captured training views. Entries may be deleted while no detector runs; the clouds they name may be at any "
+    "time.\n";
 
 /// `000.pcd`, or the name after the last one: a number is not used again while a later file stands there.
 std::string nextName(const fs::path& folder) {
@@ -48,14 +50,18 @@ void storeFile(const std::string& file, const YAML::Node& root) {
 }  // namespace
 
 CapturedViews::CapturedViews(std::string folder)
-    : folder_(std::move(folder)), file_((fs::path(folder_) / "dataset.yaml").string()) {}
+    : folder_(std::move(folder)),
+      file_((fs::path(folder_) / "dataset.yaml").string()),
+      lock_file_((fs::path(folder_) / ".lock").string()) {}
 
 CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& view) {
   checkFileName(object, "the object's name");
   if (object.rfind("builtin:", 0) == 0) {
     throw Error(ErrorCode::bad_usage, "the object's name '" + object + "' is refused: it starts with 'builtin:'");
   }
+  makeFolder(folder_);
   const std::lock_guard<std::mutex> lock(mutex_);
+  const FileLock among_processes(lock_file_);
   const DataSet before = readUnlocked();
   if (before.scale != 1) {
     throw Error(ErrorCode::bad_usage, file_ +
@@ -88,10 +94,15 @@ CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& 
 
 std::size_t CapturedViews::remove(const std::string& object) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  std::error_code ignored;
+  if (!fs::exists(file_, ignored)) return 0;
+  const FileLock among_processes(lock_file_);
   const DataSet before = readUnlocked();
   std::vector<std::string> removed;
-  for (const TrainingEntry& entry : before.training) {
-    if (entry.object == object) removed.push_back(entry.path);
+  for (const auto* entries : {&before.training, &before.missing}) {
+    for (const TrainingEntry& entry : *entries) {
+      if (entry.object == object) removed.push_back(entry.path);
+    }
   }
   if (removed.empty()) return 0;
   checkFileName(object, "the object's name");
@@ -101,7 +112,6 @@ std::size_t CapturedViews::remove(const std::string& object) {
     if (entry["object"].Scalar() != object) rest.push_back(entry);
   }
   root["training"] = rest;
-  std::error_code ignored;
   if (rest.size() == 0 && !root["scenes"] && !root["tests"]) {
     fs::remove(file_, ignored);  // a data set must not be empty
   } else {
@@ -121,7 +131,7 @@ DataSet CapturedViews::read() const {
 }
 
 DataSet CapturedViews::readUnlocked() const {
-  if (std::error_code ignored; fs::exists(file_, ignored)) return loadDataSet(file_);
+  if (std::error_code ignored; fs::exists(file_, ignored)) return loadDataSet(file_, MissingClouds::left_out);
   DataSet empty;
   empty.file = file_;
   empty.name = "captured";
@@ -138,7 +148,7 @@ std::vector<std::string> CapturedViews::objects() const {
 
 /// A link that someone put there must not lead out of the folder.
 std::string CapturedViews::objectFolder(const std::string& object) const {
-  return fs::path(confinedPath(object + "/000.pcd", folder_)).parent_path().string();
+  return fs::path(confinedPath(object + "/.view", folder_)).parent_path().string();
 }
 
 }  // namespace sks

@@ -13,7 +13,8 @@ namespace sks {
 
 /// Training views that were captured with a camera, kept as a data set of their own: `<folder>/dataset.yaml` and
 /// `<folder>/<object>/000.pcd`, `001.pcd` ... The files are all there is: nothing is lost over restarts, and entries
-/// may be taken out by hand. Safe to use from several threads of one process.
+/// may be taken out by hand. Safe to use from several threads, and from several processes: who changes them holds the
+/// lock of `<folder>/.lock`.
 class CapturedViews {
 public:
   /// @param folder need not exist; it is made when it is needed
@@ -24,13 +25,15 @@ public:
     std::size_t views = 0;  ///< of this object, with the new one
   };
   /// Stores a view, then lists it. @throws Error(bad_usage) for a name that is not fit for a folder, or if the data set
-  /// file has been changed to millimetres; Error(bad_file) if the files cannot be read or written
+  /// file has been changed to millimetres; Error(bad_file) if the files cannot be read or written, or others have been
+  /// changing them for long
   Added add(const std::string& object, const Cloud& view);
 
-  /// Takes all views of an object out and deletes those that add() stored. Returns how many.
+  /// Takes all views of an object out and deletes those that add() stored. Returns how many were listed.
   std::size_t remove(const std::string& object);
 
-  /// What is there, in its order; without entries if there is nothing.
+  /// What is there, in its order; without entries if there is nothing. Views whose files are gone are `missing`, with
+  /// a warning each.
   /// @throws Error(bad_file), Error(bad_data) naming file and line if the data set file is damaged
   DataSet read() const;
 
@@ -45,6 +48,7 @@ private:
 
   std::string folder_;
   std::string file_;
+  std::string lock_file_;
   mutable std::mutex mutex_;
 };
 

@@ -30,7 +30,8 @@ constexpr double rigid_tolerance = 1e-3;  // of each entry of R^T R - I and of t
 /// Reads the parts of one file; keeps what all of them need.
 class DataSetReader {
 public:
-  explicit DataSetReader(const std::string& file) : file_(file), folder_(fs::path(file).parent_path()) {
+  DataSetReader(const std::string& file, MissingClouds missing)
+      : file_(file), folder_(fs::path(file).parent_path()), missing_(missing) {
     data_set_.file = file;
   }
 
@@ -52,11 +53,13 @@ private:
     data_set_.warnings.push_back(file_ + ":" + std::to_string(node.Mark().line + 1) + ": " + message);
   }
   std::string resolve(const std::string& path) const { return (folder_ / path).lexically_normal().string(); }
+  bool isMissing(const YamlMap& map) const;
   std::string cloudPath(const YamlMap& map) const;
   Symmetry readSymmetry(const YamlMap& map) const;
 
   std::string file_;
   fs::path folder_;
+  MissingClouds missing_;
   DataSet data_set_;
 };
 
@@ -76,7 +79,7 @@ DataSet DataSetReader::read() {
     const YamlMap test = mapOf(item, "a test", {"object", "cloud"});
     data_set_.tests.push_back({test.text("object"), cloudPath(test)});
   }
-  if (data_set_.training.empty() && data_set_.scenes.empty() && data_set_.tests.empty()) {
+  if (data_set_.training.empty() && data_set_.missing.empty() && data_set_.scenes.empty() && data_set_.tests.empty()) {
     failAt(file_, root, "nothing in it: the data set needs 'training', 'scenes' or 'tests'");
   }
   return std::move(data_set_);
@@ -92,11 +95,15 @@ void DataSetReader::readUnits(const YamlMap& map) {
   data_set_.max_distance = distance * data_set_.scale;
 }
 
+bool DataSetReader::isMissing(const YamlMap& map) const {
+  std::error_code ignored;
+  return !isBuiltin(map.text("cloud")) && !fs::is_regular_file(resolve(map.text("cloud")), ignored);
+}
+
 std::string DataSetReader::cloudPath(const YamlMap& map) const {
   if (isBuiltin(map.text("cloud"))) return map.text("cloud");
-  std::string path = resolve(map.text("cloud"));
-  std::error_code ignored;
-  if (fs::is_regular_file(path, ignored)) return path;
+  const std::string path = resolve(map.text("cloud"));
+  if (!isMissing(map)) return path;
   throw Error(ErrorCode::bad_file, file_ + ":" + std::to_string(map.at("cloud").Mark().line + 1) + ": cloud '" + path +
                                        "' does not exist; paths are relative to the data set file: correct the path or "
                                        "put the cloud there");
@@ -106,7 +113,8 @@ void DataSetReader::readTraining(const YamlMap& map) {
   TrainingEntry entry;
   entry.object = map.text("object");
   entry.source = fs::path(map.text("cloud")).lexically_normal().string();
-  entry.path = cloudPath(map);
+  const bool left_out = missing_ == MissingClouds::left_out && isMissing(map);
+  entry.path = left_out ? resolve(map.text("cloud")) : cloudPath(map);
   const std::string kind = map.text("kind");
   if (kind != "view" && kind != "model" && kind != "mesh") {
     map.fail("kind", "is '" + kind + "': use view (2.5-D, seen from the camera), model (full 3-D) or mesh (triangles)");
@@ -115,7 +123,10 @@ void DataSetReader::readTraining(const YamlMap& map) {
   entry.mesh = kind == "mesh";
   if (isBuiltin(entry.path) && !entry.mesh) map.fail("kind", "must be mesh for the built-in object " + entry.path);
   if (map.has("symmetry")) entry.symmetry = readSymmetry(map);
-  data_set_.training.push_back(std::move(entry));
+  if (left_out) {
+    warn(map.at("cloud"), "cloud '" + entry.path + "' of object '" + entry.object + "' does not exist: it is left out");
+  }
+  (left_out ? data_set_.missing : data_set_.training).push_back(std::move(entry));
 }
 
 Symmetry DataSetReader::readSymmetry(const YamlMap& map) const {
@@ -215,8 +226,8 @@ Eigen::Isometry3d DataSetReader::readPose(const YamlMap& map) const {
 
 }  // namespace
 
-DataSet loadDataSet(const std::string& path) {
-  return DataSetReader(path).read();
+DataSet loadDataSet(const std::string& path, MissingClouds missing) {
+  return DataSetReader(path, missing).read();
 }
 
 std::vector<TrainingSample> trainingSamples(const DataSet& data_set, const MeshSampler& sampler) {

@@ -58,14 +58,21 @@ struct DataSet {
   std::vector<TrainingEntry> training;
   std::vector<Scene> scenes;
   std::vector<TestEntry> tests;
-  std::vector<std::string> warnings;  ///< what is odd but can be used, each naming file and line
+  std::vector<TrainingEntry> missing;  ///< training clouds that do not exist (MissingClouds::left_out)
+  std::vector<std::string> warnings;   ///< what is odd but can be used, each naming file and line
+};
+
+/// What becomes of training clouds that do not exist.
+enum class MissingClouds {
+  refused,
+  left_out  ///< with a warning that names each
 };
 
 /// Reads a data set file strictly: unknown and repeated keys, units other than m and mm, poses that are not rigid,
 /// scenes of the same name and clouds that do not exist are refused before any work is done.
 /// @throws Error(bad_file) if the file or a cloud is missing or the file is no YAML; Error(bad_data) naming file, line,
 ///         key and remedy
-DataSet loadDataSet(const std::string& path);
+DataSet loadDataSet(const std::string& path, MissingClouds missing = MissingClouds::refused);
 
 /// Turns a mesh into training views. @param scale metres per unit of the mesh
 using MeshSampler = std::function<std::vector<TrainingSample>(const TrainingEntry& entry, double scale)>;

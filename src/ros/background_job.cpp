@@ -4,13 +4,15 @@
 #include <algorithm>
 #include <future>
 #include <memory>
-#include <thread>
+#include <system_error>
 
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include <sks_detector/error.hpp>
+
+#include "core/settings/threads.hpp"
 
 namespace sks_detector {
 namespace {
@@ -22,6 +24,16 @@ void lowerPriority() {
   ::setpriority(PRIO_PROCESS, id_t(::syscall(SYS_gettid)), lowest_priority);
 }
 
+/// What a thread of its own does. @throws sks::Error where that cannot be started
+template <typename Task>
+std::future<void> startedThread(Task task) {
+  try {
+    return std::async(std::launch::async, task);
+  } catch (const std::system_error& error) {
+    throw sks::threadError("a thread for the training", error.code().message());
+  }
+}
+
 }  // namespace
 
 void BackgroundJob::run(const Work& work, const std::function<void(const sks::ProgressState&)>& listener) {
@@ -31,7 +43,7 @@ void BackgroundJob::run(const Work& work, const std::function<void(const sks::Pr
     listener(state);
     return goesOn();
   };
-  std::async(std::launch::async, [&] {
+  startedThread([&] {
     lowerPriority();
     work(progress);
   }).get();
@@ -74,7 +86,7 @@ bool BackgroundJob::running() const {
 }
 
 int BackgroundJob::threads() {
-  return std::max(1, int(std::thread::hardware_concurrency()) - 1);
+  return std::max(1, sks::threadCount(sks::Settings()) - 1);
 }
 
 }  // namespace sks_detector

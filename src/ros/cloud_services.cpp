@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include <ros/console.h>
 #include <boost/make_shared.hpp>
 
 #include <sks_detector/error.hpp>
@@ -63,7 +64,8 @@ void CloudServices::detect(const Detect::Request& request, Detect::Response& res
 void CloudServices::captureView(const CaptureView::Request& request, CaptureView::Response& response) {
   sks::checkFileName(request.object, "the object's name");  // before the camera is waited for
   sks::confinedPath(context_.captured.file(), context_.dataset_directory);
-  context_.captured.read();
+  const std::vector<std::string> warnings = context_.captured.read().warnings;
+  for (const std::string& warning : warnings) ROS_WARN_STREAM(warning);
   const sks::Cloud cloud = context_.node.read(*nextCloud(request.timeout));
   const std::vector<std::uint32_t> object = findObject(cloud);
   const sks::ViewQuality quality = sks::assessView(cloud, object, context_.slot.trainingSettings());
@@ -76,7 +78,8 @@ void CloudServices::captureView(const CaptureView::Request& request, CaptureView
   response.extent.y = quality.extent.y();
   response.extent.z = quality.extent.z();
   response.resolution = quality.spacing;
-  response.message = "view " + std::to_string(added.views) + " of '" + request.object + "': " + describe(quality);
+  response.message = "view " + std::to_string(added.views) + " of '" + request.object + "': " + describe(quality) +
+                     asRemarks(warnings);
 }
 
 sensor_msgs::PointCloud2ConstPtr CloudServices::nextCloud(double timeout) const {

@@ -57,10 +57,12 @@ void CodebookServices::removeObject(const RemoveObject::Request& request, Remove
   const std::lock_guard<std::mutex> lock(context_.codebook_change);
   refuseWhileTraining();
   const auto detector = context_.slot.detector();
-  const std::vector<std::string> captured = context_.captured.objects();
+  const sks::DataSet captured = context_.captured.read();
   std::vector<std::string> known = detector ? detector->codebook().objects : std::vector<std::string>();
   const bool is_trained = contains(known, request.object);
-  known.insert(known.end(), captured.begin(), captured.end());
+  for (const auto* entries : {&captured.training, &captured.missing}) {
+    for (const sks::TrainingEntry& entry : *entries) known.push_back(entry.object);
+  }
   if (!contains(known, request.object)) {
     const std::string hint =
         known.empty() ? "there are none" : "did you mean '" + sks::nearestName(request.object, known) + "'?";

@@ -8,7 +8,9 @@
 
 #include <sks_detector/codebook_file.hpp>
 
+#include "core/settings/threads.hpp"
 #include "core/settings/value_text.hpp"
+#include "ros/master_access.hpp"
 #include "ros/with_queue.hpp"
 
 namespace sks_detector {
@@ -18,7 +20,9 @@ constexpr double watch_period = 0.5;  // [s]
 
 /// A node leaves one core to the rest of the robot, unless it is told how many threads to use.
 sks::Settings withThreads(sks::Settings settings) {
-  if (settings.threads == 0) settings.threads = std::max(1, sks::threadCount(settings) - 1);
+  const std::string capped = sks::tooManyThreads(settings);
+  if (!capped.empty()) ROS_WARN_STREAM(capped);
+  settings.threads = settings.threads == 0 ? std::max(1, sks::threadCount(settings) - 1) : sks::threadCount(settings);
   return settings;
 }
 
@@ -97,6 +101,7 @@ void DetectorNode::work() {
     try {
       process(*frame);
     } catch (const std::exception& error) {
+      statistics_.unusable();
       errors_.error("frame", "cloud of " + input_.topic() + ": " + error.what());
     }
   }
@@ -107,7 +112,7 @@ void DetectorNode::process(const CloudInput::Frame& frame) {
   const NodeSettings settings = nodeSettings();
   const std_msgs::Header& header = frame.cloud->header;
   const ros::Time start = ros::Time::now();
-  if (start < frame.received_at) return;  // it came before time jumped back
+  if (start < frame.received_at) return input_.countDropped();  // it came before time jumped back
   const double age = header.stamp.isZero() ? 0 : start.toSec() - header.stamp.toSec();  // ros::Duration may overflow
   if (settings.max_input_age > 0 && age > settings.max_input_age) {
     statistics_.tooOld(age);
@@ -117,7 +122,7 @@ void DetectorNode::process(const CloudInput::Frame& frame) {
 
   FrameResult result;
   const bool usable = detect(*frame.cloud, settings, result);
-  if (ros::Time::now() < start || !enabled_) return;
+  if (ros::Time::now() < start || !enabled_) return input_.countDropped();
   result.detections.processing_time = secondsSince(frame.received);
   output_.publish(result, settings.publish_tf);
   if (usable) {
@@ -171,6 +176,7 @@ void DetectorNode::updateWanted() {
 void DetectorNode::watch() {
   try {
     watchTime();
+    watchMaster();
     watchSilence();
     diagnostics_.update();
   } catch (const std::exception& error) {
@@ -184,6 +190,14 @@ void DetectorNode::watchTime() {
   ROS_WARN_STREAM("time jumped back by " << back << " s: transforms and waiting clouds are forgotten");
   transforms_.clear();
   statistics_.reset();
+}
+
+void DetectorNode::watchMaster() {
+  input_.refresh();
+  listenToTransforms();
+  if (input_.lacksMaster()) {
+    errors_.warning("master", masterIsAway() + ": " + input_.topic() + " is subscribed to when it is back");
+  }
 }
 
 void DetectorNode::watchSilence() {

@@ -52,9 +52,10 @@ private:
   void setEnabled(bool enabled);
   /// Subscribes or unsubscribes, as somebody listens or not.
   void updateWanted();
-  /// Looks after what no message tells: time, silence, diagnostics.
+  /// Looks after what no message tells: time, the master, silence, diagnostics.
   void watch();
   void watchTime();
+  void watchMaster();
   void watchSilence();
   void listenToTransforms();
 

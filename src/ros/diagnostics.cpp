@@ -7,6 +7,8 @@
 
 #include <sks_detector/Status.h>
 
+#include "ros/master_access.hpp"
+
 namespace sks_detector {
 namespace {
 
@@ -82,7 +84,9 @@ void Diagnostics::reportInput(Status& status) {
   const FrameStatistics::Summary summary = statistics_.summary();
   const double silence = input_.silence(), limit = silence_limit_();
   const std::uint32_t publishers = input_.publishers();
-  if (!input_.subscribed()) {
+  if (input_.lacksMaster()) {
+    status.summary(DiagnosticStatus::WARN, "not subscribed: " + masterIsAway());
+  } else if (!input_.subscribed()) {
     status.summary(DiagnosticStatus::OK, "not subscribed");
   } else if (limit > 0 && silence > limit) {
     status.summaryf(DiagnosticStatus::WARN, "no cloud on %s for %.0f s (%s)", input_.topic().c_str(), silence,
@@ -99,6 +103,7 @@ void Diagnostics::reportInput(Status& status) {
   status.addf("age [s]", "%.3f", summary.age);
   status.add("received", counts.received);
   status.add("dropped for newer ones", counts.dropped);
+  status.add("of these lost on the way", counts.lost);
   status.add("dropped as too old", summary.too_old);
 }
 

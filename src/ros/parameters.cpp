@@ -3,11 +3,10 @@
 
 #include <utility>
 
-#include <ros/master.h>
-
 #include <sks_detector/error.hpp>
 
 #include "core/settings/detector_table.hpp"
+#include "ros/master_access.hpp"
 #include "ros/parameter_tree.hpp"
 
 namespace sks_detector {
@@ -45,8 +44,7 @@ ParameterReading readParameters(const XmlRpc::XmlRpcValue& tree, const std::stri
 }
 
 void ParameterMirror::write(const Configuration& configuration) {
-  // roscpp would wait for a master that is gone, for ever; what is not told now is told with the next change
-  if (!ros::master::check()) return;
+  if (!masterAnswers()) return;  // what is not told now is told with the next change
   if (written_.empty()) deleteOldNames();
   for (const sks::SettingInfo& info : parameterInfos()) {
     const std::string text = getParameter(configuration, info.key);

@@ -17,8 +17,22 @@ namespace sks_detector {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+constexpr std::size_t most_remarks = 3;
+
+}  // namespace
+
 std::string counted(std::size_t count, const std::string& what) {
   return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+std::string asRemarks(const std::vector<std::string>& warnings) {
+  std::string remarks;
+  const std::size_t shown = std::min(warnings.size(), most_remarks);
+  for (std::size_t i = 0; i < shown; ++i) remarks += "; warning: " + warnings[i];
+  if (shown < warnings.size()) remarks += "; " + counted(warnings.size() - shown, "more warning") + " in the log";
+  return remarks;
 }
 
 ServiceContext::ServiceContext(DetectorSlot& detector_slot, StatusBoard& status_board, const NodeSettings& settings,

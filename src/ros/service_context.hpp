@@ -3,6 +3,7 @@
 
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "io/captured_views.hpp"
 #include "ros/background_job.hpp"
@@ -14,6 +15,9 @@ namespace sks_detector {
 
 /// "1 view", "2 views".
 std::string counted(std::size_t count, const std::string& what);
+
+/// Warnings as they end a reply: the first few, each after "; "; empty if there are none.
+std::string asRemarks(const std::vector<std::string>& warnings);
 
 /// What the services share.
 struct ServiceContext {

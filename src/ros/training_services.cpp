@@ -22,13 +22,15 @@ namespace sks_detector {
 
 void TrainingServices::train(const Train::Request& request, Train::Response& response) {
   const auto listener = [this](const sks::ProgressState& state) { context_.board.trainingProgress(state); };
-  context_.training.run([&](const sks::Progress& progress) { work(request, progress, response); }, listener);
+  std::vector<std::string> warnings;
+  context_.training.run([&](const sks::Progress& progress) { work(request, progress, response, warnings); }, listener);
   response.message = "detecting with " + response.codebook + ": " + counted(response.objects, "object") + ", " +
                      counted(response.views, "view") + ", " + counted(response.words, "codeword") + ", trained in " +
-                     sks::toText(std::round(10 * response.seconds) / 10) + " s";
+                     sks::toText(std::round(10 * response.seconds) / 10) + " s" + asRemarks(warnings);
 }
 
-void TrainingServices::work(const Train::Request& request, const sks::Progress& progress, Train::Response& response) {
+void TrainingServices::work(const Train::Request& request, const sks::Progress& progress, Train::Response& response,
+                            std::vector<std::string>& warnings) {
   sks::Stopwatch stopwatch;
   context_.board.trainingStarted();
   const std::shared_ptr<void> at_end(nullptr, [this](void*) { context_.board.trainingEnded(); });
@@ -47,6 +49,7 @@ void TrainingServices::work(const Train::Request& request, const sks::Progress& 
   const TrainingSet set = gatherTrainingSet(request.dataset, request.captured, context_.captured,
                                             context_.dataset_directory, sks::meshSampler(mesh_training, warn));
   for (const std::string& warning : set.warnings) ROS_WARN_STREAM(warning);
+  warnings = set.warnings;
 
   const std::string name = request.name.empty() ? set.name : request.name;
   const auto codebook = std::make_shared<const sks::Codebook>(sks::train(set.samples, settings, name, progress));

@@ -19,7 +19,8 @@ public:
 private:
   sks::Settings settingsOf(const Train::Request& request) const;
   /// All of a training; the old codebook is in use until the last step.
-  void work(const Train::Request& request, const sks::Progress& progress, Train::Response& response);
+  void work(const Train::Request& request, const sks::Progress& progress, Train::Response& response,
+            std::vector<std::string>& warnings);
 
   ServiceContext& context_;
 };

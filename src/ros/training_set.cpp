@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/training_set.hpp"
 
+#include <algorithm>
+#include <functional>
+
+#include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
 
 #include "io/confined_path.hpp"
@@ -22,6 +26,23 @@ void checkConfined(const sks::DataSet& data_set, const std::string& directory) {
       throw Error(error.code(), data_set.file + ": a cloud of object '" + entry.object + "': " + error.what());
     }
   }
+}
+
+/// What was captured and is damaged now does not keep the rest from being trained.
+void leaveOutUnreadable(sks::DataSet& views) {
+  const auto unreadable = [&](const sks::TrainingEntry& entry) {
+    if (entry.mesh) return false;
+    try {
+      sks::readCloud(entry.path, views.scale);
+      return false;
+    } catch (const Error& error) {
+      views.warnings.push_back("a captured view of '" + entry.object + "' is left out: " + error.what());
+      return true;
+    }
+  };
+  const auto rest = std::stable_partition(views.training.begin(), views.training.end(), std::not_fn(unreadable));
+  views.missing.insert(views.missing.end(), rest, views.training.end());
+  views.training.erase(rest, views.training.end());
 }
 
 void add(sks::DataSet data_set, const std::string& prefix, const std::string& directory,
@@ -47,9 +68,15 @@ TrainingSet gatherTrainingSet(const std::string& dataset, bool captured, const s
     }
   }
   if (captured || dataset.empty()) {
-    const sks::DataSet data_set = views.read();
+    sks::DataSet data_set = views.read();
     if (set.name.empty()) set.name = data_set.name;
+    checkConfined(data_set, directory);
+    leaveOutUnreadable(data_set);
     add(data_set, dataset.empty() ? "" : "captured/", directory, sampler, set);
+    if (set.samples.empty() && !data_set.missing.empty()) {
+      throw Error(ErrorCode::bad_usage, "there is nothing to train: no captured view can be used; " +
+                                            data_set.warnings.front() + "; capture views again (~capture_view)");
+    }
     if (set.samples.empty()) {
       throw Error(ErrorCode::bad_usage,
                   "there is nothing to train: no view was captured yet (~capture_view), and no data set is given");

@@ -15,7 +15,7 @@ namespace sks_detector {
 struct TrainingSet {
   std::string name;  ///< of the data set
   std::vector<sks::TrainingSample> samples;
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;  ///< of the data sets; also names what was captured and is left out
 };
 
 /// Gathers a training set from a data set file and the captured views.

@@ -26,7 +26,8 @@ public:
   Transforms& operator=(const Transforms&) = delete;
 
   /// Starts to listen to /tf and /tf_static, if it was not done yet: nodes that need no transforms do not pay for them.
-  void listen();
+  /// False while the master is away, so that it is to be tried again.
+  bool listen();
   /// Forgets what is not static, after time jumped back.
   void clear() { buffer_.clear(); }
   /// Lets lookup() fail at once.

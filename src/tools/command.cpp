@@ -9,6 +9,7 @@
 
 #include "core/settings/detector_table.hpp"
 #include "core/settings/settings_overlay.hpp"
+#include "core/settings/threads.hpp"
 #include "io/file.hpp"
 
 namespace sks::tools {
@@ -38,6 +39,8 @@ void SettingsOptions::apply(Settings& settings, baselines::MethodSettings* own) 
     const std::string warning = each.set(set.substr(0, equals), set.substr(equals + 1));
     if (!warning.empty()) warnings.push_back("--set " + set + ": " + warning);
   }
+  const std::string capped = tooManyThreads(settings);
+  if (!capped.empty()) warnings.push_back(capped);
   for (const std::string& warning : warnings) warn(warning);
   validate(settings);
 }

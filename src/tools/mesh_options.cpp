@@ -2,7 +2,6 @@
 #include "tools/mesh_options.hpp"
 
 #include <algorithm>
-#include <thread>
 
 #include <sks_detector/error.hpp>
 
@@ -58,7 +57,7 @@ MeshSampler MeshViewOptions::sampler() const {
   training.views = views_;
   training.distance = distance_;
   training.noise = noise_;
-  training.threads = std::max(1, int(std::thread::hardware_concurrency()));
+  training.threads = threadCount(Settings());
   return meshSampler(training, warn);
 }
 

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <thread>
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/threads.hpp"
 #include "simulation/builtin_objects.hpp"
 #include "simulation/scene.hpp"
 #include "tools/bag.hpp"
@@ -58,7 +58,7 @@ void run(const SimulateOptions& options) {
     throw Error(ErrorCode::bad_usage, "--scenes " + std::to_string(options.scenes) + " must be in [1, 100000]");
   }
   SceneOptions scene = options.scene;
-  scene.threads = std::max(1, int(std::thread::hardware_concurrency()));
+  scene.threads = startableThreads(Settings());
   if (options.no_noise) scene.camera.noise = CameraNoise::none();
   validate(scene);
   const std::vector<TrainingEntry> entries = options.meshes.entries();

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The values of /diagnostics: they add up to what was sent."""
+import signal
 import unittest
 
 import numpy as np
@@ -74,6 +75,33 @@ class DiagnosticsTest(unittest.TestCase):
             _, _, values = self.wait_for("Input", lambda s, v: v["received"] == str(sent), "%d received clouds" % sent)
             dropped = int(values["dropped for newer ones"])
             self.wait_for("Detection", lambda s, v: int(v["processed"]) + dropped == sent, "all accounted for")
+
+    def test_what_is_lost_while_the_node_stands_still_is_counted(self):
+        with support.Node(parameters={"codebook": support.CODEBOOK}) as node:
+            self.source.wait_for_subscriber()
+            scene, sent = synthetic.scene(), 60
+            self.detections.wait_for_stamp(self.source.send(support.cloud_message(scene)))
+            rate = rospy.Rate(10)
+            for number in range(1, sent):
+                if number == 15:
+                    node.send_signal(signal.SIGSTOP)
+                if number == 45:
+                    node.send_signal(signal.SIGCONT)
+                self.source.send(support.cloud_message(scene))
+                rate.sleep()
+            last = self.source.send(support.cloud_message(scene))  # by which it is seen what came before
+            self.detections.wait_for_stamp(last)
+            _, _, values = self.wait_for("Detection", lambda s, v: int(v["processed"]) > 0 and self.counted(v) == sent + 1,
+                                         "all accounted for")
+            _, _, counts = self.wait_for("Input", lambda s, v: True, "the input")
+            self.assertLessEqual(int(counts["of these lost on the way"]), int(counts["dropped for newer ones"]))
+            self.assertGreater(int(values["processed"]), 10)
+
+    def counted(self, detection):
+        """Processed clouds, and those that the latest word on the input says were dropped."""
+        dropped = [int(v.value) for m in self.diagnostics.messages for s in m.status for v in s.values
+                   if v.key == "dropped for newer ones"]
+        return int(detection["processed"]) + (dropped[-1] if dropped else 0)
 
     def test_unusable_clouds_are_an_error_for_a_while(self):
         with support.Node(parameters={"codebook": support.CODEBOOK}):

@@ -1,13 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """The master goes and comes back: frames go on, and so do the services, over connections that are there."""
-import os
-import socket
-import subprocess
-import threading
 import unittest
 
-import rosgraph
 import rospy
 import rostest
 from dynamic_reconfigure.msg import Config, DoubleParameter
@@ -15,40 +10,9 @@ from dynamic_reconfigure.srv import Reconfigure
 
 import support
 import synthetic
+from own_master import Master, service
 from sks_detector.msg import DetectionArray
 from sks_detector.srv import Info, LoadCodebook
-
-
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("", 0))
-        return probe.getsockname()[1]
-
-
-class Master:
-    def __init__(self, port):
-        self._port = port
-        self.start()
-
-    def start(self):
-        self._process = subprocess.Popen(["rosmaster", "--core", "-p", str(self._port)], stdout=subprocess.DEVNULL)
-        support.wait_for(rosgraph.is_master_online, "the master")
-
-    def kill(self):
-        self._process.kill()
-        self._process.wait()
-
-
-def service(name, service_type):
-    """Connected for good: no call asks a master where the node is. A call that does not return fails the test."""
-    proxy = rospy.ServiceProxy("/detector/" + name, service_type, persistent=True)
-    proxy.wait_for_service(support.PATIENCE)
-
-    def call(*arguments):
-        replies = []
-        threading.Thread(target=lambda: replies.append(proxy(*arguments)), daemon=True).start()
-        return support.wait_for(lambda: replies, "the reply of " + name)[0]
-    return call
 
 
 class MasterTest(unittest.TestCase):
@@ -90,9 +54,7 @@ class MasterTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    port = free_port()
-    os.environ["ROS_MASTER_URI"] = "http://localhost:%d" % port
-    master = Master(port)
+    master = Master()
     try:
         rospy.init_node("faults_master_test", disable_signals=True)
         rostest.rosrun("sks_detector", "faults_master", MasterTest)

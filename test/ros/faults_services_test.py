@@ -5,12 +5,15 @@ import contextlib
 import itertools
 import os
 import shutil
+import socket
 import subprocess
 import threading
 import unittest
+import urllib.parse
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
+import rosgraph
 import rospy
 import rostest
 from dynamic_reconfigure.msg import BoolParameter, Config, DoubleParameter
@@ -209,6 +212,33 @@ class FaultyServicesTest(services_support.ServicesTest):
 
     def dataset_of(self, name):
         return self.write_dataset("one.yaml", [{"object": name, "cloud": name + ".pcd", "kind": "view"}])
+
+    def test_swaps_of_the_codebook_take_no_more_memory(self):
+        def swap(times):
+            for _ in range(times):
+                self.succeed("load_codebook", "replaced.sks")
+                self.expect_objects(["round", "thing"])
+            return self.node.memory()
+        before = swap(50)
+        self.assertLess(swap(200) - before, 20)
+
+    def test_hundreds_of_connections_that_say_nothing(self):
+        """Half-open ones, to both ports of the node: others are served meanwhile, and all are let go in the end."""
+        master = rosgraph.Master("/faults_services_test")
+        ports = [urllib.parse.urlparse(uri).port for uri in
+                 (master.lookupNode("/detector"), master.lookupService("/detector/info"))]
+        before = self.node.handles()
+        with contextlib.ExitStack() as connections:
+            for number in range(400):
+                connection = connections.enter_context(socket.create_connection(("localhost", ports[number % 2])))
+                connection.send((b"", b"P", b"POST / HTTP/1.0\r\n", b"\x10")[number // 2 % 4])
+            with Frames(self.source) as frames:
+                for _ in range(20):
+                    self.assertEqual(self.succeed("info").codebook, self.loaded)
+                answers = len(frames.answers)
+                support.wait_for(lambda: len(frames.answers) > answers + 3, "frames meanwhile")
+        support.wait_for(lambda: self.node.handles() < before + 50, "the end of the connections")
+        self.expect_objects(["round", "thing"])
 
     def test_a_codebook_file_that_is_written_while_it_is_read(self):
         with open(support.CODEBOOK, "rb") as file:

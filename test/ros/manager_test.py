@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Nodelets in a manager: they subscribe only while somebody listens, stand side by side, and go without a trace."""
+import os
 import signal
 import subprocess
 import time
@@ -17,6 +18,7 @@ import synthetic
 from sks_detector.msg import DetectionArray, Status
 
 
+CYCLES = 5 * int(os.environ.get("SKS_FAULT_RUNS", 4))  # of loading and unloading
 OURS = ["sks_detector", "nodelet_manager"]
 NODELETS = ["nodelet", "nodelet", "manager"]
 
@@ -160,6 +162,24 @@ class ManagerTest(unittest.TestCase):
         self.manager.load("detector")
         self.manager.unload("detector")
         self.assertEqual(self.manager.nodelets(), [])
+        self.expect_clean_end()
+
+    def test_loads_and_unloads_leave_nothing_behind(self):
+        def cycles(count):
+            for _ in range(count):
+                self.manager.load("detector")
+                self.manager.unload("detector")
+            self.assertEqual(self.manager.nodelets(), [])
+            return self.manager.process.pid
+        process = cycles(5)
+        memory, threads = support.memory_of(process), support.threads_of(process)
+        cycles(CYCLES)
+        self.assertLess(support.memory_of(process) - memory, 10 + 0.1 * CYCLES)
+        support.wait_for(lambda: support.threads_of(process) <= threads, "the end of the threads")
+        self.manager.load("detector")
+        detections = support.Recorder("/detector/detections", DetectionArray)
+        self.expect_answer(detections)
+        detections.close()
         self.expect_clean_end()
 
     def test_ends_cleanly_whenever_it_is_interrupted(self):

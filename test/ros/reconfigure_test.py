@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """dynamic_reconfigure: what it describes, changes and refuses."""
+import os
 import unittest
 
 import dynamic_reconfigure.client
@@ -47,6 +48,23 @@ class ReconfigureTest(unittest.TestCase):
         self.assertEqual(rospy.get_param("/detector/silence_warning"), 7)
         found = support.answer(source, support.cloud_message(synthetic.scene()), detections)
         self.assertEqual(found.detections, [])
+        detections.close()
+
+    def test_more_threads_than_the_machine_has_use_for_are_not_started(self):
+        detections = support.Recorder("/detector/detections", DetectionArray)
+        source = support.CloudSource("/points")
+        scene = support.cloud_message(synthetic.scene())
+        expected = support.answer(source, scene, detections).detections
+        before, most = self.node.threads(), max(16, os.cpu_count())
+        reply = self.client.update_configuration({"threads": 256})
+        self.assertEqual(reply["threads"], min(256, most))
+        self.node.wait_for_output("threads = 256", "%d are used" % most)
+        found = support.answer(source, scene, detections).detections
+        self.assertLessEqual(self.node.threads(), before + most)
+        self.assertEqual([d.score for d in found], [d.score for d in expected])
+        self.client.update_configuration({"threads": 2})  # OpenMP keeps its threads where one is enough
+        support.answer(source, scene, detections)
+        support.wait_for(lambda: self.node.threads() <= before + 1, "the end of the threads")
         detections.close()
 
     def test_refuses_a_set_as_a_whole(self):

@@ -48,6 +48,13 @@ class DetectorProcess:
     def alive(self):
         return self.process.poll() is None
 
+    def memory(self):
+        """Resident [MB]."""
+        return support.memory_of(self.process.pid)
+
+    def handles(self):
+        return len(os.listdir("/proc/%d/fd" % self.process.pid))
+
     def kill(self):
         self.process.kill()
         self.process.wait()

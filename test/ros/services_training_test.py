@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Training by service: what it makes, what it refuses, and that frames go on meanwhile."""
 import os
+import shutil
 import threading
 import unittest
 
 import rospy
 import rostest
+from rosgraph_msgs.msg import Log
 
 import services_support
 import support
@@ -110,6 +112,33 @@ class TrainingServicesTest(services_support.ServicesTest):
             with self.subTest(fields):
                 self.refuse("train", *reasons, **fields)
                 self.expect_old_codebook()
+
+    def test_captured_views_that_are_gone_or_damaged_are_left_out_and_named(self):
+        folder = os.path.join(self.node.datasets, "captured")
+        for name in ("kept", "gone", "damaged"):
+            os.makedirs(os.path.join(folder, name))
+            shutil.copy(os.path.join(self.node.datasets, "thing.pcd"), os.path.join(folder, name, "000.pcd"))
+        self.write_dataset("captured/dataset.yaml", [
+            {"object": name, "cloud": name + "/000.pcd", "kind": "view"} for name in ("gone", "kept", "damaged")])
+        os.remove(os.path.join(folder, "gone/000.pcd"))
+        with open(os.path.join(folder, "damaged/000.pcd"), "w") as file:
+            file.write("VERSION 0.7\n")
+        log = support.Recorder("/rosout", Log)
+        support.wait_for(lambda: log.connections() > 0, "the log")
+        try:
+            trained = self.succeed("train", captured=True)
+            self.assertEqual((trained.objects, trained.views), (1, 1))
+            for name in ("gone/000.pcd", "damaged/000.pcd"):
+                self.assertIn(name, trained.message)
+                support.wait_for(lambda: support.log_messages(log, name), "the warning about " + name)
+            self.assertEqual(self.succeed("info").objects, ["kept"])
+            self.assertEqual(self.succeed("remove_object", object="gone").views, 1)
+            self.assertNotIn("gone/000.pcd", self.succeed("train", captured=True).message)
+            os.remove(os.path.join(folder, "kept/000.pcd"))
+            self.refuse("train", "no captured view can be used", "kept/000.pcd", captured=True)
+        finally:
+            log.close()
+            shutil.rmtree(folder)
 
     def test_refuses_data_sets_that_reach_out(self):
         outside = os.path.join(self.folder, "secret.pcd")

@@ -154,6 +154,20 @@ def log_messages(recorder, text):
     return [m.msg for m in recorder.messages if text in m.msg]
 
 
+def status_of(process, key):
+    with open("/proc/%d/status" % process) as status:
+        return next(int(line.split()[1]) for line in status if line.startswith(key + ":"))
+
+
+def memory_of(process):
+    """Resident [MB]."""
+    return status_of(process, "VmRSS") / 1024
+
+
+def threads_of(process):
+    return status_of(process, "Threads")
+
+
 class Node:
     """detector_node in a process of its own, with its output; ends it when the `with` block is left."""
 
@@ -186,8 +200,13 @@ class Node:
 
     def memory(self):
         """Resident [MB]."""
-        with open("/proc/%d/status" % self._process.pid) as status:
-            return next(int(line.split()[1]) for line in status if line.startswith("VmRSS")) / 1024
+        return memory_of(self._process.pid)
+
+    def threads(self):
+        return threads_of(self._process.pid)
+
+    def send_signal(self, which):
+        self._process.send_signal(which)
 
     def output(self):
         return "".join(self._lines)

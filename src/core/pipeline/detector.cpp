@@ -11,6 +11,7 @@
 #include "core/pipeline/scene_description.hpp"
 #include "core/pipeline/stage_clock.hpp"
 #include "core/pipeline/to_detection.hpp"
+#include "core/settings/threads.hpp"
 #include "core/verification/hough_verifier.hpp"
 #include "core/verification/verification.hpp"
 
@@ -84,7 +85,7 @@ const VerifierStage& Detector::verifier() const {
 
 DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) const {
   using Times = StageTimes;
-  const int threads = threadCount(settings_);
+  const int threads = startableThreads(settings_);
   const float largest_plane = skipsPlanes(settings_) ? codebook_->largestExtent() : any_plane;
   StageClock clock;
   SceneDescription scene;

@@ -9,6 +9,7 @@
 
 #include "core/keypoints/sparse_selection.hpp"
 #include "core/pipeline/default_stages.hpp"
+#include "core/settings/threads.hpp"
 #include "core/surface/sanitize.hpp"
 
 namespace sks {
@@ -82,7 +83,7 @@ StageCounts countsOf(const Cloud& cloud, const SceneDescription& scene, std::siz
 
 SceneDescriber::Result SceneDescriber::describe(const Cloud& cloud, Orientation orientation, StageClock& clock) const {
   using Times = StageTimes;
-  const int threads = threadCount(settings);
+  const int threads = startableThreads(settings);
   SceneDescription scene;
   const Cloud usable = clock.book(&Times::sanitize, usableCloud(cloud, orientation, *codebook, settings));
   scene.surface = clock.book(&Times::normals, prepareSurface(usable, settings.surface, orientation, threads));

@@ -8,6 +8,7 @@
 
 #include "core/descriptors/shot.hpp"
 #include "core/pipeline/default_stages.hpp"
+#include "core/settings/threads.hpp"
 #include "core/surface/sanitize.hpp"
 
 namespace sks {
@@ -69,7 +70,7 @@ std::shared_ptr<const DescriptorStage> trainedDescriptors(const Stages& stages, 
 class CodebookBuilder {
 public:
   CodebookBuilder(const Settings& settings, const std::string& name, const Stages& stages)
-      : threads_(threadCount(settings)),
+      : threads_(startableThreads(settings)),
         keypoints_(stages.keypoints ? stages.keypoints : std::make_shared<const ConfiguredKeypoints>()),
         descriptors_(trainedDescriptors(stages, settings.descriptor.type)) {
     codebook_.name = name;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sks_detector/settings.hpp>
 
-#include <algorithm>
-#include <thread>
 #include <utility>
 
 #include <sks_detector/error.hpp>
@@ -73,10 +71,6 @@ std::vector<std::string> bindingConflicts(const Settings& codebook, const Settin
 
 std::string nearestSettingKey(const std::string& key) {
   return nearestKey(settingInfos(), key);
-}
-
-int threadCount(const Settings& settings) {
-  return settings.threads > 0 ? settings.threads : std::max(1, int(std::thread::hardware_concurrency()));
 }
 
 }  // namespace sks

@@ -11,6 +11,7 @@ namespace sks {
 namespace {
 
 constexpr int direction_count = 96;
+constexpr float least_pixel = 1e-6f;       // [m] of points so near to each other that squares of distances vanish
 constexpr double pixel_per_spacing = 2.5;  // wide enough that the far side does not show through between points
 
 /// Median distance of a sample of points to their nearest neighbour.
@@ -54,7 +55,7 @@ std::vector<char> visibleFrom(const Surface& surface, const Eigen::Vector3f& dir
     low = low.cwiseMin(image[i]);
     high = high.cwiseMax(image[i]);
   }
-  pixel = std::max(pixel, (high - low).maxCoeff() / 2000.0f);
+  pixel = std::max({pixel, (high - low).maxCoeff() / 2000.0f, least_pixel});
   const int width = int((high.x() - low.x()) / pixel) + 1, rows = int((high.y() - low.y()) / pixel) + 1;
   std::vector<float> top(std::size_t(width) * rows, -std::numeric_limits<float>::infinity());
   const auto cell = [&](std::size_t i) {

@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include <Eigen/Geometry>
+
+#include "core/surface/counting_sort.hpp"
 
 namespace sks {
 namespace {
 
-constexpr double max_rows = 4e6;  // 16 MB of row table, whatever the extent of the points
+constexpr double max_rows = 4e6;       // 16 MB of row table, whatever the extent of the points
+constexpr float least_width = 1e-30f;  // [m] of what is put in buckets: the inverse of less may overflow
 
 Eigen::AlignedBox3f boundsOf(const std::vector<Eigen::Vector3f>& points, int threads) {
   Eigen::AlignedBox3f bounds;
@@ -46,45 +48,12 @@ struct Entry {
   std::uint32_t row;
 };
 
-/// Entries by key, those of one key in their order, whatever the number of threads: each counts its part of them and
-/// puts it in its slots. @param begin becomes the slot of each key's first entry, and one past the last of all
-template <typename KeyOf>
-std::vector<Entry> sortedByKey(const std::vector<Entry>& entries, std::size_t keys, KeyOf&& key_of, int threads,
-                               std::vector<std::uint32_t>& begin) {
-  const std::size_t n = entries.size(), parts = std::clamp<std::size_t>(n / keys, 1, std::size_t(threads));
-  std::vector<std::uint32_t> next(parts * keys, 0);
-  const auto forEachOfPart = [&](std::size_t part, auto&& f) {
-    for (std::size_t i = n * part / parts; i < n * (part + 1) / parts; ++i) {
-      f(entries[i], next[part * keys + key_of(entries[i])]);
-    }
-  };
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::size_t part = 0; part < parts; ++part) {
-    forEachOfPart(part, [](const Entry&, std::uint32_t& count) { ++count; });
-  }
-  begin.resize(keys + 1);
-  std::uint32_t slot = 0;
-  for (std::size_t key = 0; key < keys; ++key) {
-    begin[key] = slot;
-    for (std::size_t part = 0; part < parts; ++part) {
-      slot += std::exchange(next[part * keys + key], slot);
-    }
-  }
-  begin[keys] = slot;
-  std::vector<Entry> sorted(n);
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::size_t part = 0; part < parts; ++part) {
-    forEachOfPart(part, [&](const Entry& entry, std::uint32_t& to) { sorted[to++] = entry; });
-  }
-  return sorted;
-}
-
 /// Points roughly by x: by buckets of equal width, in their order within each.
 std::vector<Entry> roughlyByX(const std::vector<Eigen::Vector3f>& points, const Eigen::AlignedBox3f& bounds,
                               const PointGrid::Rows& rows, int threads) {
   constexpr std::uint32_t buckets = 4096;
   const float low = bounds.min().x(), width = bounds.sizes().x();
-  const float per_width = width > 0 ? float(buckets) / width : 0.0f;
+  const float per_width = width > least_width ? float(buckets) / width : 0.0f;
   std::vector<Entry> entries(points.size());
 #pragma omp parallel for schedule(static) num_threads(threads)
   for (std::size_t i = 0; i < entries.size(); ++i) {

@@ -3,59 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <sstream>
 #include <utility>
 
 #include <sks_detector/error.hpp>
 
+#include "core/surface/distinct_points.hpp"
+
 namespace sks {
 namespace {
 
 constexpr double implausible_distance = 50.0;  // [m]; beyond every RGB-D sensor, below any object in millimetres
-
-/// Set of positions by their exact value; open addressing, sized once. A slot holds a part of the hash, so that other
-/// positions are hardly ever read.
-class PositionSet {
-public:
-  PositionSet(const std::vector<Eigen::Vector3f>& points, std::size_t expected) : points_(points) {
-    while ((std::size_t(1) << bits_) < 2 * expected) ++bits_;
-    slots_.assign(std::size_t(1) << bits_, {0, 0});
-  }
-
-  static std::uint64_t hash(const Eigen::Vector3f& point) {
-    const Eigen::Vector3f p = point + Eigen::Vector3f::Zero();  // -0 becomes +0
-    std::uint32_t bits[3];
-    std::memcpy(bits, p.data(), sizeof bits);
-    const std::uint64_t mixed =
-        bits[0] * 0x9E3779B97F4A7C15ull ^ bits[1] * 0xC2B2AE3D27D4EB4Full ^ bits[2] * 0x165667B19E3779F9ull;
-    return mixed * 0x9E3779B97F4A7C15ull;
-  }
-
-  /// Has the slot of a hash read from memory, for insert() soon after.
-  void prefetch(std::uint64_t hash) const { __builtin_prefetch(&slots_[hash >> (64 - bits_)]); }
-
-  /// False if an equal position is in the set already.
-  bool insert(std::uint32_t index, std::uint64_t hash) {
-    const std::uint32_t tag = std::uint32_t(hash);
-    for (std::size_t slot = hash >> (64 - bits_);; slot = (slot + 1) & (slots_.size() - 1)) {
-      if (slots_[slot].next_index == 0) {
-        slots_[slot] = {index + 1, tag};
-        return true;
-      }
-      if (slots_[slot].tag == tag && points_[slots_[slot].next_index - 1] == points_[index]) return false;
-    }
-  }
-
-private:
-  struct Slot {
-    std::uint32_t next_index;  // index + 1; 0 is free
-    std::uint32_t tag;
-  };
-  const std::vector<Eigen::Vector3f>& points_;
-  int bits_ = 4;
-  std::vector<Slot> slots_;
-};
 
 /// Of up to some thousand points, spread evenly over the cloud.
 double medianDistance(const Cloud& cloud) {
@@ -121,40 +79,6 @@ std::vector<std::uint32_t> usablePoints(const Cloud& cloud, const SanitizeSettin
   return usable;
 }
 
-/// Those of the points that are not at exactly the position of an earlier one. Equal points have equal hashes: each
-/// share of all hashes is looked at by itself.
-std::vector<std::uint32_t> distinctPoints(const Cloud& cloud, const std::vector<std::uint32_t>& indices, int threads) {
-  const std::size_t n = indices.size(), shares = std::size_t(threads);
-  std::vector<std::uint64_t> hashes(n);
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::size_t i = 0; i < n; ++i) hashes[i] = PositionSet::hash(cloud.points[indices[i]]);
-  std::vector<char> distinct(n);
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::size_t share = 0; share < shares; ++share) {
-    constexpr std::size_t block = 32;
-    PositionSet seen(cloud.points, n / shares + n / 8);
-    std::size_t waiting[block] = {}, count = 0;
-    const auto insert = [&] {
-      for (std::size_t k = 0; k < count; ++k)
-        distinct[waiting[k]] = seen.insert(indices[waiting[k]], hashes[waiting[k]]);
-      count = 0;
-    };
-    for (std::size_t i = 0; i < n; ++i) {
-      if (((hashes[i] & 0xffff) * shares) >> 16 != share) continue;
-      seen.prefetch(hashes[i]);
-      waiting[count++] = i;
-      if (count == block) insert();
-    }
-    insert();
-  }
-  std::vector<std::uint32_t> kept;
-  kept.reserve(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (distinct[i]) kept.push_back(indices[i]);
-  }
-  return kept;
-}
-
 }  // namespace
 
 SanitizeSettings sanitizingFor(Orientation orientation, SanitizeSettings settings) {
@@ -175,7 +99,7 @@ Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeRep
   SanitizeReport counts;
   counts.input = cloud.size();
   const auto usable = usablePoints(cloud, settings, threads, counts);
-  auto distinct = settings.remove_duplicates ? distinctPoints(cloud, usable, threads) : usable;
+  auto distinct = settings.remove_duplicates ? distinctPoints(cloud.points, usable, threads) : usable;
   counts.duplicates = usable.size() - distinct.size();
   Cloud kept;
   kept.sensor_origin = cloud.sensor_origin;

@@ -12,6 +12,7 @@ int main(int argc, char** argv) try {
   const ros::NodeHandle private_handle("~");
   sks_detector::handleTermination();
   sks_detector::DetectorNode node(private_handle);
+  ros::master::setRetryTimeout(ros::WallDuration(2));  // of what registers, from now on, just as the master goes
   sks_detector::spinUntilTermination();
   return 0;
 } catch (const std::exception& error) {
