@@ -134,6 +134,16 @@ TEST(Trainer, AutomaticDescriptorIsCshotWhereAllCloudsHaveColor) {
   for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 1e-6f);
 }
 
+TEST(Trainer, AutomaticDescriptorIsShotForMeshes) {
+  sks::TrainingSample rendered = sampleOf("a", asymmetric(true), ViewKind::model);
+  rendered.rendered = true;
+  const auto codebook = sks::train({rendered, sampleOf("b", asymmetric(true), ViewKind::model)}, {}, "test");
+  EXPECT_EQ(codebook.descriptor_type, DescriptorType::shot);
+  for (const sks::TrainingView& view : codebook.views) {  // colours are still compared in verification
+    EXPECT_EQ(view.surface_colors.size(), view.surface_points.size());
+  }
+}
+
 TEST(Trainer, ForcedCshotRefusesACloudWithoutColorByName) {
   sks::Settings settings;
   settings.descriptor.type = DescriptorType::cshot;

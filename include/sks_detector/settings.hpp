@@ -102,7 +102,7 @@ struct KeypointSettings {
   KeypointDetector detector = KeypointDetector::grid;
   double grid_size = 0.02;
   SelectionRule selection = SelectionRule::rank;
-  double discard = 0.5;
+  double discard = 0.35;
   double curvature_threshold = 0.001;
   bool skip_planes = true;
   double iss_salient_radius = 0.02;
@@ -157,7 +157,7 @@ struct DescriptorSettings {
   static void visit(Self& s, Visitor&& v) {
     v(s.type, "type",
       "what a descriptor describes. shot: shape; cshot: shape and colour; auto: cshot where all training clouds have "
-      "colour, else shot",
+      "colour and come from a camera, else shot: the colours of a mesh are not the camera's",
       Binding::codebook);
     v(s.radius, "radius", Range{0.002, 1}, "m",
       "radius of the surface around a keypoint that its descriptor and its local reference frame describe; larger: "
@@ -259,12 +259,12 @@ struct RefinementSettings {
 };
 
 struct VerificationSettings {
-  int candidates = 80;
+  int candidates = 120;
   double support_distance = 0.008;
   double support_angle = 0.45;
   double occlusion_distance = 0.015;
   double color_tolerance = 20;
-  double half_evidence = 4.4;
+  double half_evidence = 1.7;
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {

@@ -25,6 +25,7 @@ struct TrainingSample {
   std::function<Cloud()> load;
   std::string frame;                       ///< of views that are registered to each other: name of their common frame
   std::optional<Eigen::AlignedBox3f> box;  ///< of the whole object [m]; else the box of the cloud is taken
+  bool rendered = false;                   ///< from a mesh, whose colours are not those of the camera that detects
 };
 
 /// Section 3.1: normals, grid keypoints without selection, descriptors, one codeword each. Deterministic, for any

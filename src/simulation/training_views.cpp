@@ -73,6 +73,7 @@ std::vector<TrainingSample> meshSamples(const std::string& object, const std::st
     sample.source = source + "#" + std::to_string(number);
     sample.frame = source;
     sample.box = box;
+    sample.rendered = true;
     sample.load = [renderer, camera, T_model_camera, number, threads = training.threads, color = mesh->hasColor()] {
       const Rendering view = renderer->render(camera, T_model_camera, number, threads);
       return measuredPoints(view.cloud, color, T_model_camera);

@@ -65,8 +65,8 @@ std::shared_ptr<const DescriptorStage> trainedDescriptors(const Stages& stages, 
   return stages.descriptors;
 }
 
-/// Codewords under construction. Descriptors start as CSHOT under `automatic`; from the first cloud without colour on
-/// they are SHOT, and what was there is cut down to its SHOT part.
+/// Codewords under construction. Descriptors start as CSHOT under `automatic`; from the first cloud without colour, or
+/// with the colours of a mesh, on they are SHOT, and what was there is cut down to its SHOT part.
 class CodebookBuilder {
 public:
   CodebookBuilder(const Settings& settings, const std::string& name, const Stages& stages)
@@ -89,7 +89,7 @@ public:
     const Settings& settings = codebook_.settings;
     const Orientation orientation = orientationOf(sample.kind);
     const Cloud cloud = sanitize(sample.load(), sanitizingFor(orientation, settings.sanitize), nullptr, threads_);
-    if (!cloud.hasColor() && may_drop_color_) dropColor();
+    if (may_drop_color_ && (sample.rendered || !cloud.hasColor())) dropColor();
 
     const Surface surface = prepareSurface(cloud, settings.surface, orientation, threads_);
     const Keypoints keypoints = keypoints_->detect(surface, settings);

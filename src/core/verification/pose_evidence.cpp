@@ -57,7 +57,7 @@ Correspondence correspondenceOf(const Placed& placed, const Sighting& seen, cons
   if (seen_there && (color == nullptr || search == CorrespondenceSearch::along_ray)) {
     correspondence.point = scene.range_image.pointOf(seen);
     if (color != nullptr) {
-      const float difference = squaredColorDifference(*color, surface.colorAt(correspondence.point));
+      const float difference = squaredColorDifference(*color, scene.colorAt(correspondence.point));
       correspondence.agreement = colorAgreement(difference, scene.color_tolerance);
     }
     return correspondence;
@@ -67,7 +67,7 @@ Correspondence correspondenceOf(const Placed& placed, const Sighting& seen, cons
   surface.forEachNeighbor(placed.point, distance, runs, [&](std::uint32_t j, float) {
     const float cosine = placed.normal.dot(surface.normal(j));
     if (color != nullptr && cosine > agreement) {
-      difference = std::min(difference, squaredColorDifference(*color, surface.colorAt(j)));
+      difference = std::min(difference, squaredColorDifference(*color, scene.colorAt(j)));
     }
     if (cosine > best) {
       best = cosine;
@@ -161,7 +161,7 @@ RoughSupport roughSupport(const TrainingView& view, const SurfaceWeights& surfac
       ++support.points;
       const double agreement =
           compares_color ? colorAgreement(squaredColorDifference(view.surface_colors[i],
-                                                                 surface.colorAt(scene.range_image.pointOf(seen))),
+                                                                 scene.colorAt(scene.range_image.pointOf(seen))),
                                           color_tolerance)
                          : 1;
       support.supported += agreement * weights[i];

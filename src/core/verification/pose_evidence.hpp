@@ -28,6 +28,11 @@ struct SceneView {
   RangeImage range_image;
   std::vector<LargePlane> planes;
   float color_tolerance;  // units of CIELab; 0: colours are not compared
+  /// By which light and white balance have moved the scene's colours from those of the models; as in Surface.
+  Eigen::Vector3f color_shift = Eigen::Vector3f::Zero();
+
+  /// Of a scene point, as under the light of the models.
+  Eigen::Vector3f colorAt(std::uint32_t point) const { return surface.colorAt(point) - color_shift; }
 };
 
 /// The weight of each point of a view's stored surface, in [0, 1]: flat parts fit many things.

@@ -64,7 +64,8 @@ RangeImage::RangeImage(const Surface& scene, float radius, int threads) {
   }
   if (low_u > high_u) return;
   const Eigen::Vector2f size(high_u - low_u, high_v - low_v);
-  image.cell = std::max(spacings_per_cell * angularSpacing(scene, radius), 1e-6f);
+  spacing_ = angularSpacing(scene, radius);
+  image.cell = std::max(spacings_per_cell * spacing_, 1e-6f);
   image.cell = std::max(image.cell, float(std::sqrt(double(size.x()) * size.y() / most_cells)));
   image.cell = std::max(image.cell, float(size.maxCoeff() / most_cells));
   image.u0 = low_u;

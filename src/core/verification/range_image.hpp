@@ -83,6 +83,8 @@ public:
   }
 
   const Projection& projection() const { return projection_; }
+  /// Median angle between neighbouring points of the scene [rad].
+  float spacing() const { return spacing_; }
   /// Row by row.
   const std::vector<Cell>& cells() const { return cells_; }
 
@@ -96,6 +98,7 @@ private:
   }
 
   Projection projection_;
+  float spacing_ = 0;
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> points_;  // of the cells
 };

@@ -6,52 +6,19 @@
 #include <optional>
 #include <tuple>
 
+#include "core/verification/color_shift.hpp"
 #include "core/verification/pose_candidates.hpp"
 #include "core/verification/projective_refinement.hpp"
-#include "core/verification/refinement.hpp"
 #include "core/verification/score.hpp"
-#include "core/voting/vote_density.hpp"
 
 namespace sks {
 namespace {
 
-constexpr double area_unit = 1e-4;       // [m^2] areas enter the evidence in cm^2
-constexpr double prior_area = 0.25e-4;   // [m^2] keeps the fraction of a very small area low
-constexpr double color_gain = 1.7;       // of evidence: agreement in colour is worth three times the area
 constexpr double largest_claimed = 0.5;  // of the confirming points; else a hypothesis claims none itself
-
-constexpr std::size_t first_points = 250, last_points = 1500;  // of a surface, examined before and after the choice
 // Of the evidence that scores 0.5: what has less is not worth the last rounds, or a search for more than what is in
 // sight.
-constexpr double plausible_fraction = 0.5, lowest_fraction = 0.15;
-
-/// Of ICP with nearest pairs, for poses that are a fraction of a millimetre off.
-RefinementSettings lastRounds(RefinementSettings settings) {
-  settings.iterations = (settings.iterations + 1) / 2;
-  settings.start_distance = settings.end_distance;
-  return settings;
-}
-
-/// A hypothesis and the part of the scene that it explains.
-struct Examined {
-  Hypothesis hypothesis;
-  std::vector<std::uint32_t> confirming;
-};
-
-/// Of the density that votes have after this selection, what they would have after that of half the keypoints, for
-/// which the evidence that scores 0.5 is set.
-double densityAsOfHalf(double density, const KeypointSettings& keypoints) {
-  const bool ranks = keypoints.detector == KeypointDetector::grid && keypoints.selection == SelectionRule::rank;
-  return ranks ? density * 0.5 / (1 - keypoints.discard) : density;
-}
-
-/// The evidence grows with the fraction of the visible surface that is confirmed, with its weighted area, with the
-/// fraction of all that faces the sensor, and with the votes for the position.
-double evidenceOf(const PoseEvidence& pose, double density) {
-  const double fraction = pose.weighted_supported / (pose.weighted_visible + prior_area);
-  const double coverage = pose.supported / (pose.facing + prior_area);
-  return fraction * std::sqrt(pose.weighted_supported / area_unit * coverage) * std::cbrt(density);
-}
+constexpr double plausible_fraction = 0.5, lowest_fraction = 0.3;
+constexpr double color_doubt = 2;  // as many good hypotheses it takes to tell light from a wrong object
 
 /// Votes for the position of the hypothesis whose correspondences fit its pose.
 std::vector<std::uint32_t> inliersOf(const Codebook& codebook, const std::vector<Vote>& votes,
@@ -116,10 +83,7 @@ void resolveConflicts(std::vector<Examined>& examined, const Surface& scene, flo
 
 }  // namespace
 
-SurfaceVerifier::SurfaceVerifier(std::shared_ptr<const Codebook> codebook) : codebook_(std::move(codebook)) {
-  weights_.reserve(codebook_->views.size());
-  for (const TrainingView& view : codebook_->views) weights_.emplace_back(view);
-}
+SurfaceVerifier::SurfaceVerifier(std::shared_ptr<const Codebook> codebook) : models_(std::move(codebook)) {}
 
 std::vector<Hypothesis> SurfaceVerifier::propose(const SceneDescription& /*scene*/, const Codebook& /*codebook*/,
                                                  const Settings& /*settings*/) const {
@@ -136,28 +100,14 @@ double SurfaceVerifier::score(const Hypothesis& hypothesis, const Settings& sett
   return scoreOfEvidence(hypothesis, settings);
 }
 
-std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
+std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector<Vote>>& spaces, SceneView scene,
                                                    const Settings& settings, int threads) const {
-  const std::vector<PoseCandidate> candidates = poseCandidates(*codebook_, weights_, spaces, scene, settings, threads);
-  std::vector<VoteDensity> densities;
-  densities.reserve(spaces.size());
-  for (const auto& votes : spaces) densities.emplace_back(votes, settings.voting.bandwidth);
-  const auto examine = [&](Hypothesis hypothesis, std::size_t most_points, CorrespondenceSearch search) {
-    const TrainingView& view = codebook_->views[hypothesis.view];
-    hypothesis.T_scene_box = hypothesis.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
-    hypothesis.box_size = view.extent().cast<double>();
-    const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();
-    hypothesis.density = densities[hypothesis.object].at(center);
-    hypothesis.votes = densities[hypothesis.object].count(center);
-    PoseEvidence evidence =
-        examinePose(view, weights_[hypothesis.view], scene, settings, hypothesis.T_scene_model, most_points, search);
-    hypothesis.evidence = evidenceOf(evidence, densityAsOfHalf(hypothesis.density, settings.keypoints));
-    if (scene.comparesColor(view)) hypothesis.evidence *= color_gain;
-    return Examined{std::move(hypothesis), std::move(evidence.confirming)};
-  };
+  const Codebook& codebook = *models_.codebook;
+  const std::vector<PoseCandidate> candidates =
+      poseCandidates(codebook, models_.weights, spaces, scene, settings, threads);
+  const PoseExaminer examiner(models_, scene, spaces, settings);
+  const double half = settings.verification.half_evidence;
 
-  const double plausible = plausible_fraction * settings.verification.half_evidence;
-  const double lowest_evidence = lowest_fraction * settings.verification.half_evidence;
   std::vector<Examined> examined(candidates.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -166,22 +116,25 @@ std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector
     hypothesis.object = candidate.object;
     hypothesis.view = candidate.view;
     hypothesis.T_scene_model =
-        refineAlongRays(codebook_->views[candidate.view], scene, settings.refinement, candidate.T_scene_model);
-    examined[i] = examine(hypothesis, first_points, CorrespondenceSearch::along_ray);
-    if (examined[i].hypothesis.evidence < lowest_evidence) continue;
-    examined[i] = examine(std::move(hypothesis), first_points, CorrespondenceSearch::nearby);
+        refineAlongRays(codebook.views[candidate.view], scene, settings.refinement, candidate.T_scene_model);
+    examined[i] = examiner.glance(std::move(hypothesis));
+    if (examined[i].hypothesis.evidence < lowest_fraction * half) continue;
+    examined[i] = examiner.examine(std::move(examined[i].hypothesis), first_points);
   }
   std::sort(examined.begin(), examined.end(), better);
-  examined = suppressNonMaxima(std::move(examined), *codebook_, settings);
+  examined = suppressNonMaxima(std::move(examined), codebook, settings);
 
+  const auto isPlausible = [&](const Examined& e) { return e.hypothesis.evidence >= plausible_fraction * half; };
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < examined.size(); ++i) {
-    Hypothesis hypothesis = examined[i].hypothesis;
-    if (hypothesis.evidence < plausible) continue;
-    const TrainingView& view = codebook_->views[hypothesis.view];
-    hypothesis.T_scene_model = refinePose(view.surface_points, view.surface_normals, scene.surface,
-                                          lastRounds(settings.refinement), hypothesis.T_scene_model);
-    examined[i] = examine(std::move(hypothesis), last_points, CorrespondenceSearch::nearby);
+    if (!isPlausible(examined[i])) continue;
+    examined[i] = examiner.examine(examiner.refined(std::move(examined[i].hypothesis)), last_points);
+  }
+  scene.color_shift = sceneColorShift(examined, color_doubt * half);
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < examined.size(); ++i) {
+    if (!isPlausible(examined[i]) || !scene.comparesColor(codebook.views[examined[i].hypothesis.view])) continue;
+    examined[i] = examiner.examine(examiner.bestTurned(examined[i].hypothesis), last_points);
   }
   std::sort(examined.begin(), examined.end(), better);
   resolveConflicts(examined, scene.surface, float(settings.verification.support_distance));
@@ -190,7 +143,7 @@ std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector
   std::vector<Hypothesis> hypotheses;
   for (Examined& candidate : examined) {
     Hypothesis& hypothesis = candidate.hypothesis;
-    hypothesis.inliers = inliersOf(*codebook_, spaces[hypothesis.object], hypothesis, settings);
+    hypothesis.inliers = inliersOf(codebook, spaces[hypothesis.object], hypothesis, settings);
     hypotheses.push_back(std::move(hypothesis));
   }
   return hypotheses;

@@ -9,7 +9,7 @@
 #include <sks_detector/stages/hypothesis.hpp>
 #include <sks_detector/stages/stages.hpp>
 
-#include "core/verification/pose_evidence.hpp"
+#include "core/verification/pose_examiner.hpp"
 
 namespace sks {
 
@@ -34,11 +34,10 @@ public:
   double score(const Hypothesis& hypothesis, const Settings& settings) const override;
 
 private:
-  std::vector<Hypothesis> findPoses(const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
+  std::vector<Hypothesis> findPoses(const std::vector<std::vector<Vote>>& spaces, SceneView scene,
                                     const Settings& settings, int threads) const;
 
-  std::shared_ptr<const Codebook> codebook_;
-  std::vector<SurfaceWeights> weights_;  // of the points of each view's stored surface
+  VerifiedModels models_;
 };
 
 }  // namespace sks

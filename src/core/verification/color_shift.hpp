@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/verification/pose_examiner.hpp"
+
+namespace sks {
+
+/// By what exposure and white balance have moved the colours of a scene from those of the models: the median of the
+/// shifts that the hypotheses see, weighted by their evidence, scene less model; as in Surface. Bounded.
+/// @param doubt evidence that speaks for no shift; hypotheses with less than half of it have no say
+Eigen::Vector3f sceneColorShift(const std::vector<Examined>& examined, double doubt);
+
+}  // namespace sks

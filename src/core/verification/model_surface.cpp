@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/verification/model_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace sks {
+namespace {
+
+/// Cube of a point and the side that it faces: front and back of a thin part stay apart.
+using Place = std::tuple<std::int32_t, std::int32_t, std::int32_t, int>;
+
+Place placeOf(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, float resolution) {
+  const Eigen::Vector3f cube = (point / resolution).array().floor();
+  const int side = (normal.x() > 0 ? 4 : 0) + (normal.y() > 0 ? 2 : 0) + (normal.z() > 0 ? 1 : 0);
+  return {std::int32_t(cube.x()), std::int32_t(cube.y()), std::int32_t(cube.z()), side};
+}
+
+ModelSurface merged(const Codebook& codebook, std::vector<std::uint32_t> views) {
+  const float resolution = float(codebook.settings.training.surface_resolution);
+  std::vector<std::pair<Place, std::pair<std::uint32_t, std::uint32_t>>> all;  // and which point of which view
+  bool colored = true;
+  for (const std::uint32_t v : views) {
+    const TrainingView& view = codebook.views[v];
+    colored = colored && !view.surface_colors.empty();
+    for (std::uint32_t i = 0; i < view.surface_points.size(); ++i) {
+      all.push_back({placeOf(view.surface_points[i], view.surface_normals[i], resolution), {v, i}});
+    }
+  }
+  std::sort(all.begin(), all.end());
+  ModelSurface surface;
+  surface.resolution = resolution;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (k > 0 && all[k].first == all[k - 1].first) continue;
+    const auto [v, i] = all[k].second;
+    const TrainingView& view = codebook.views[v];
+    surface.points.push_back(view.surface_points[i]);
+    surface.normals.push_back(view.surface_normals[i]);
+    if (colored) surface.colors.push_back(view.surface_colors[i]);
+  }
+  surface.views = std::move(views);
+  return surface;
+}
+
+}  // namespace
+
+std::vector<std::shared_ptr<const ModelSurface>> modelSurfaces(const Codebook& codebook) {
+  std::map<std::pair<std::uint32_t, std::string>, std::vector<std::uint32_t>> frames;
+  for (std::uint32_t v = 0; v < codebook.views.size(); ++v) {
+    frames[{codebook.views[v].object, codebook.views[v].frameName()}].push_back(v);
+  }
+  std::map<std::pair<std::uint32_t, std::string>, std::shared_ptr<const ModelSurface>> surfaces;
+  for (const auto& [frame, views] : frames) {
+    surfaces[frame] = std::make_shared<const ModelSurface>(merged(codebook, views));
+  }
+  std::vector<std::shared_ptr<const ModelSurface>> of_views;
+  for (const TrainingView& view : codebook.views) of_views.push_back(surfaces[{view.object, view.frameName()}]);
+  return of_views;
+}
+
+}  // namespace sks

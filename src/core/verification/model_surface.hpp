@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <sks_detector/codebook.hpp>
+
+namespace sks {
+
+/// All that is known of an object's surface in one model frame: what its registered views saw together. Of a view with
+/// a frame of its own: what that view saw.
+struct ModelSurface {
+  std::vector<Eigen::Vector3f> points;   ///< [m], model frame; about one for each cube of `resolution`
+  std::vector<Eigen::Vector3f> normals;  ///< unit
+  std::vector<Eigen::Vector3f> colors;   ///< as in Surface; empty without colour
+  float resolution = 0;                  ///< [m]
+  std::vector<std::uint32_t> views;      ///< that it is made of: indices into Codebook::views
+};
+
+/// For each view of the codebook the surface in its frame; views of one object and frame share one.
+std::vector<std::shared_ptr<const ModelSurface>> modelSurfaces(const Codebook& codebook);
+
+}  // namespace sks

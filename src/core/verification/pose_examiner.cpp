@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/verification/pose_examiner.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/verification/refinement.hpp"
+#include "core/verification/turned_poses.hpp"
+
+namespace sks {
+namespace {
+
+constexpr double area_unit = 1e-4;      // [m^2] areas enter the evidence in cm^2
+constexpr double prior_area = 0.25e-4;  // [m^2] keeps the fraction of a very small area low
+constexpr double color_gain = 1.4;      // of evidence: at right poses colours agree to about 0.8, and that to 3/2
+constexpr double well_sampled = 4;      // spacings of points within the radius of a normal
+
+/// Of ICP with nearest pairs, for poses that are a fraction of a millimetre off.
+RefinementSettings lastRounds(RefinementSettings settings) {
+  settings.iterations = (settings.iterations + 1) / 2;
+  settings.start_distance = settings.end_distance;
+  return settings;
+}
+
+/// The evidence grows with the fraction of the visible surface that is confirmed, with its weighted area, with the
+/// fraction of all that faces the sensor, and with the votes for the position.
+double evidenceOf(const PoseEvidence& pose, double density) {
+  const double fraction = pose.weighted_supported / (pose.weighted_visible + prior_area);
+  const double coverage = pose.supported / (pose.facing + prior_area);
+  return fraction * std::sqrt(pose.weighted_supported / area_unit * coverage) * std::cbrt(density);
+}
+
+}  // namespace
+
+VerifiedModels::VerifiedModels(std::shared_ptr<const Codebook> models)
+    : codebook(std::move(models)), surfaces(modelSurfaces(*codebook)) {
+  weights.reserve(codebook->views.size());
+  for (const TrainingView& view : codebook->views) weights.emplace_back(view);
+}
+
+PoseExaminer::PoseExaminer(const VerifiedModels& models, const SceneView& scene,
+                           const std::vector<std::vector<Vote>>& spaces, const Settings& settings)
+    : models_(models), codebook_(*models.codebook), scene_(scene), settings_(settings) {
+  densities_.reserve(spaces.size());
+  for (const auto& votes : spaces) densities_.emplace_back(votes, settings.voting.bandwidth);
+}
+
+Examined PoseExaminer::glance(Hypothesis hypothesis) const {
+  PoseEvidence pose;
+  hypothesis.evidence = evidenceAt(hypothesis, pose, first_points, CorrespondenceSearch::along_ray);
+  return {std::move(hypothesis), std::move(pose.confirming), {}};
+}
+
+Examined PoseExaminer::examine(Hypothesis hypothesis, std::size_t most_points) const {
+  PoseEvidence pose;
+  hypothesis.evidence = evidenceAt(hypothesis, pose, most_points, CorrespondenceSearch::nearby);
+  SightLines lines = sightLines(hypothesis);
+  hypothesis.evidence *= lines.agreement();
+  return {std::move(hypothesis), std::move(pose.confirming), std::move(lines)};
+}
+
+Hypothesis PoseExaminer::refined(Hypothesis hypothesis) const {
+  const TrainingView& view = codebook_.views[hypothesis.view];
+  hypothesis.T_scene_model = refinePose(view.surface_points, view.surface_normals, scene_.surface,
+                                        lastRounds(settings_.refinement), hypothesis.T_scene_model);
+  return hypothesis;
+}
+
+Hypothesis PoseExaminer::bestTurned(const Hypothesis& hypothesis) const {
+  const TrainingView& view = codebook_.views[hypothesis.view];
+  if (!scene_.comparesColor(view) || models_.surfaces[hypothesis.view]->views.size() < 2) return hypothesis;
+  const auto evidenceAlongRays = [&](Hypothesis& h) {
+    PoseEvidence pose;
+    return evidenceAt(h, pose, last_points, CorrespondenceSearch::along_ray) * sightLines(h).agreement();
+  };
+  Hypothesis best = hypothesis;
+  double most = evidenceAlongRays(best);
+  for (const auto& T : turnedPoses(hypothesis.T_scene_model, view.center().cast<double>(), hypothesis.box_size)) {
+    Hypothesis turned = hypothesis;
+    turned.T_scene_model = T;
+    turned.view = nearestView(turned);
+    turned = refined(std::move(turned));
+    const double evidence = evidenceAlongRays(turned);
+    if (evidence <= most) continue;
+    most = evidence;
+    best = std::move(turned);
+  }
+  return best;
+}
+
+double PoseExaminer::evidenceAt(Hypothesis& hypothesis, PoseEvidence& pose, std::size_t most_points,
+                                CorrespondenceSearch search) const {
+  const TrainingView& view = codebook_.views[hypothesis.view];
+  hypothesis.T_scene_box = hypothesis.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
+  hypothesis.box_size = view.extent().cast<double>();
+  const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();
+  hypothesis.density = densities_[hypothesis.object].at(center);
+  hypothesis.votes = densities_[hypothesis.object].count(center);
+  pose = examinePose(view, models_.weights[hypothesis.view], scene_, settings_, hypothesis.T_scene_model, most_points,
+                     search);
+  const double gain = scene_.comparesColor(view) ? color_gain : 1;
+  return gain * sampling(center) * evidenceOf(pose, hypothesis.density);
+}
+
+SightLines PoseExaminer::sightLines(const Hypothesis& hypothesis) const {
+  return lookAlongRays(*models_.surfaces[hypothesis.view], scene_, settings_.verification, hypothesis.T_scene_model,
+                       float(hypothesis.box_size.maxCoeff()));
+}
+
+/// How well the sensor samples a surface there, at most 1. The number of measurements on an area falls with the square
+/// of the range, and what they are worth together with its root.
+double PoseExaminer::sampling(const Eigen::Vector3f& position) const {
+  const double range = double((position - scene_.surface.sensor_origin).norm());
+  const double spacing = range * double(scene_.range_image.spacing());
+  return spacing > 0 ? std::min(1.0, settings_.surface.normal_radius / (well_sampled * spacing)) : 1;
+}
+
+/// Of the views in the hypothesis' frame the one that was taken most nearly from where the sensor is now.
+std::uint32_t PoseExaminer::nearestView(const Hypothesis& hypothesis) const {
+  const std::vector<std::uint32_t>& views = models_.surfaces[hypothesis.view]->views;
+  const Eigen::Vector3f sensor =
+      (hypothesis.T_scene_model.inverse() * scene_.surface.sensor_origin.cast<double>()).cast<float>();
+  const auto cosine = [&](std::uint32_t v) {
+    const TrainingView& view = codebook_.views[v];
+    return (view.sensor_origin - view.center()).stableNormalized().dot((sensor - view.center()).stableNormalized());
+  };
+  return *std::max_element(views.begin(), views.end(),
+                           [&](std::uint32_t a, std::uint32_t b) { return cosine(a) < cosine(b); });
+}
+
+}  // namespace sks

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include <sks_detector/codebook.hpp>
+#include <sks_detector/settings.hpp>
+#include <sks_detector/stages/hypothesis.hpp>
+
+#include "core/verification/model_surface.hpp"
+#include "core/verification/pose_evidence.hpp"
+#include "core/verification/sight_lines.hpp"
+#include "core/voting/vote_density.hpp"
+
+namespace sks {
+
+/// What verification keeps of a codebook: made once, read by every scene.
+struct VerifiedModels {
+  explicit VerifiedModels(std::shared_ptr<const Codebook> codebook);
+
+  std::shared_ptr<const Codebook> codebook;
+  std::vector<std::shared_ptr<const ModelSurface>> surfaces;  ///< in the frame of each view
+  std::vector<SurfaceWeights> weights;                        ///< of the points of each view's stored surface
+};
+
+/// A hypothesis with its evidence, and the part of the scene that it explains.
+struct Examined {
+  Hypothesis hypothesis;
+  std::vector<std::uint32_t> confirming;  ///< scene points
+  SightLines lines;
+};
+
+/// Gives poses their evidence in one scene (docs/method.md, section 11). Thread-safe while the scene is not changed.
+class PoseExaminer {
+public:
+  /// @param spaces votes for each object; all that is passed must outlive this
+  PoseExaminer(const VerifiedModels& models, const SceneView& scene, const std::vector<std::vector<Vote>>& spaces,
+               const Settings& settings);
+
+  /// A first look, along the sensor's rays: evidence without sight lines.
+  Examined glance(Hypothesis hypothesis) const;
+  /// The evidence of the pose as it is. @param most_points of the stored surface that are examined
+  Examined examine(Hypothesis hypothesis, std::size_t most_points) const;
+  /// After some last rounds of ICP with nearest points, by all points of the stored surface.
+  Hypothesis refined(Hypothesis hypothesis) const;
+  /// Of the refined pose and those in which the object's box lies as it does in this one, that with most evidence along
+  /// the sensor's rays, where colours are compared with just what was seen. Only where a model is known from all sides.
+  Hypothesis bestTurned(const Hypothesis& hypothesis) const;
+
+private:
+  double evidenceAt(Hypothesis& hypothesis, PoseEvidence& pose, std::size_t most_points,
+                    CorrespondenceSearch search) const;
+  SightLines sightLines(const Hypothesis& hypothesis) const;
+  double sampling(const Eigen::Vector3f& position) const;
+  std::uint32_t nearestView(const Hypothesis& hypothesis) const;
+
+  const VerifiedModels& models_;
+  const Codebook& codebook_;
+  const SceneView& scene_;
+  const Settings& settings_;
+  std::vector<VoteDensity> densities_;  // of each object
+};
+
+constexpr std::size_t first_points = 250, last_points = 1500;  ///< examined to choose between poses, and of the chosen
+
+}  // namespace sks

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/verification/turned_poses.hpp"
+
+#include <gtest/gtest.h>
+
+#include "synthetic.hpp"
+
+namespace sks {
+namespace {
+
+const Eigen::Isometry3d T_scene_book = test::poseOf(40, {1, 2, 3}, {0.1f, 0.2f, 0.9f}).cast<double>();
+const Eigen::Vector3d book_center(0.03, -0.02, 0.05);
+
+TEST(TurnedPoses, HalfTurnsKeepTheBoxOfThreeEdges) {
+  const auto poses = turnedPoses(T_scene_book, book_center, {0.2, 0.15, 0.03});
+  ASSERT_EQ(poses.size(), 3u);
+  for (const Eigen::Isometry3d& T : poses) {
+    EXPECT_NEAR((T * book_center - T_scene_book * book_center).norm(), 0, 1e-6);
+    EXPECT_NEAR(test::angleDegrees(T.linear(), T_scene_book.linear()), 180, 1e-4);
+    for (int axis = 0; axis < 3; ++axis) {  // each edge lies along the same line as before
+      EXPECT_NEAR(std::abs(T.linear().col(axis).dot(T_scene_book.linear().col(axis))), 1, 1e-6);
+    }
+  }
+}
+
+TEST(TurnedPoses, QuarterTurnsWhereTheBoxIsSquare) {
+  const auto poses = turnedPoses(T_scene_book, book_center, {0.1, 0.1, 0.2});
+  ASSERT_EQ(poses.size(), 5u);  // half turns about x and y; a quarter, a half and three quarters about z
+  int quarters = 0;
+  for (const Eigen::Isometry3d& T : poses) {
+    quarters += std::abs(test::angleDegrees(T.linear(), T_scene_book.linear()) - 90) < 1e-4;
+  }
+  EXPECT_EQ(quarters, 2);
+  EXPECT_EQ(turnedPoses(T_scene_book, book_center, {0.1, 0.1, 0.1}).size(), 9u);
+}
+
+}  // namespace
+}  // namespace sks
