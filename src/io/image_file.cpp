@@ -9,7 +9,7 @@
 namespace sks {
 namespace {
 
-constexpr std::size_t max_file_bytes = std::size_t(1) << 30;
+constexpr std::size_t max_file_bytes = std::size_t(256) << 20;
 
 bool startsWith(const std::string& bytes, const std::string& signature) {
   return bytes.compare(0, signature.size(), signature) == 0;
@@ -32,7 +32,9 @@ ColorImage readColorImage(const std::string& path) {
   return readWith(path, [](const std::string& bytes) {
     if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return decodeColorPng(bytes);
     if (startsWith(bytes, "\xff\xd8\xff")) return decodeJpeg(bytes);
-    throw CodecError("it is neither a PNG nor a JPEG file");
+    if (startsWith(bytes, "BM")) return decodeBmp(bytes);
+    if (isTga(bytes)) return decodeTga(bytes);
+    throw CodecError("it is no PNG, JPEG, BMP or TGA file; save it as PNG");
   });
 }
 

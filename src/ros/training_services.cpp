@@ -44,8 +44,9 @@ void TrainingServices::work(const Train::Request& request, const sks::Progress& 
   sks::MeshTraining mesh_training;
   mesh_training.threads = settings.threads;
   const auto warn = [](const std::string& warning) { ROS_WARN_STREAM(warning); };
-  const TrainingSet set = gatherTrainingSet(request.dataset, request.captured, context_.captured,
-                                            context_.dataset_directory, sks::meshSampler(mesh_training, warn));
+  const std::string& folder = context_.dataset_directory;
+  const TrainingSet set = gatherTrainingSet(request.dataset, request.captured, context_.captured, folder,
+                                            sks::meshSampler(mesh_training, warn, folder));
   for (const std::string& warning : set.warnings) ROS_WARN_STREAM(warning);
 
   const std::string name = request.name.empty() ? set.name : request.name;

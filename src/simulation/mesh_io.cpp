@@ -10,8 +10,8 @@
 namespace sks {
 namespace {
 
-constexpr double largest_in_metres = 5;             // what is wider across must be given in millimetres
-constexpr double smallest = 0.001, largest = 1000;  // across [m]
+constexpr double largest_in_metres = 5;            // what is wider across must be given in millimetres
+constexpr double smallest = 0.001, largest = 100;  // across [m]
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
   throw Error(ErrorCode::bad_file, "cannot read mesh '" + path + "': " + reason);
@@ -58,13 +58,18 @@ void applyScale(double scale, bool in_metres, LoadedMesh& loaded) {
   }
   if (!(diagonal * scale >= smallest && diagonal * scale <= largest)) {
     throw Error(ErrorCode::bad_data, "it would be " + sizeText(sizes, 1000 * scale) +
-                                         " mm large, and can be from 1 mm to 1 km; is its unit "
+                                         " mm large, and can be from 1 mm to 100 m; is its unit "
                                          "another one? See `units:` of the data set and --scale");
   }
   for (Eigen::Vector3f& v : loaded.mesh.vertices) v *= float(scale);
 }
 
 }  // namespace
+
+bool isMeshName(const std::string& path) {
+  const std::string ending = MeshFiles(path, "").ending();
+  return ending == ".ply" || ending == ".stl" || ending == ".obj" || ending == ".dae";
+}
 
 LoadedMesh loadMesh(const std::string& path, double scale, const std::string& folder) {
   std::error_code ignored;

@@ -57,4 +57,7 @@ struct LoadedMesh {
 /// @throws Error(bad_file) naming the file and what is wrong: missing, damaged, no triangles, not finite, no extent
 LoadedMesh loadMesh(const std::string& path, double scale = 0, const std::string& folder = "");
 
+/// Whether a file is called like one that loadMesh() reads: *.obj, *.ply, *.stl, *.dae.
+bool isMeshName(const std::string& path);
+
 }  // namespace sks
