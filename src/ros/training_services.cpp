@@ -51,6 +51,7 @@ void TrainingServices::work(const Train::Request& request, const sks::Progress& 
 
   const std::string name = request.name.empty() ? set.name : request.name;
   const auto codebook = std::make_shared<const sks::Codebook>(sks::train(set.samples, settings, name, progress));
+  for (const std::string& warning : sks::trainingWarnings(*codebook)) ROS_WARN_STREAM(warning);
   const std::size_t views = codebook->views.size();
   if (!output.empty()) sks::writeCodebook(output, *codebook);
   sks::report(progress, {"sorting the codewords", "", views, views});

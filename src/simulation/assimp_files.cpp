@@ -57,7 +57,7 @@ bool AssimpFiles::Exists(const char* name) const {
 Assimp::IOStream* AssimpFiles::Open(const char* name, const char* mode) {
   if (std::strchr(mode, 'w') != nullptr || std::strchr(mode, 'a') != nullptr) return nullptr;
   try {
-    std::string content = name == files_.mesh() ? files_.readMesh() : files_.read(name);
+    std::string content = name == files_.mesh() ? files_.readMesh() : MeshFiles::read(files_.find(name));
     return std::make_unique<AssimpStream>(std::move(content)).release();
   } catch (const Error&) {
     return nullptr;  // assimp says then which one it cannot open

@@ -34,6 +34,7 @@ struct FileMaterial {
   std::string name;
   std::optional<Rgb> color;           ///< where the file states one
   std::string texture;                ///< name of the picture; empty: none
+  std::string file;                   ///< that names it; empty: the mesh
   std::optional<ColorImage> picture;  ///< where it is in the file itself
   std::string problem;                ///< why the texture cannot be used; empty: nothing is known
 };
@@ -73,7 +74,7 @@ FileMesh readObjMesh(const std::string& content, const MeshFiles& files);
 /// What assimp reads: DAE.
 FileMesh readAssimpMesh(const MeshFiles& files);
 
-/// The materials of an MTL file, added to those that there are.
-void readMaterials(const std::string& content, std::map<std::string, FileMaterial>& materials);
+/// The materials of an MTL file, added to those that there are. @throws Error(bad_file) without its name
+void readMaterials(const std::string& path, std::map<std::string, FileMaterial>& materials);
 
 }  // namespace sks

@@ -80,9 +80,11 @@ LoadedMesh Assembly::make() {
     addTriangle(triangle, colored_ ? paintOf(triangle.face) : Paint::none);
   }
   if (!colored_) result_.mesh.textures.clear();
+  std::string left_out;
   for (const auto& [what, number] : left_out_) {
-    result_.warnings.push_back(std::to_string(number) + " " + what + " are left out");
+    left_out += (left_out.empty() ? "left out: " : ", ") + what + " (" + std::to_string(number) + ")";
   }
+  if (!left_out.empty()) result_.warnings.push_back(left_out);
   return std::move(result_);
 }
 
@@ -133,19 +135,20 @@ void Assembly::loadTextures() {
     if (face.material >= 0 && mapped(face)) ++shown[std::size_t(face.material)];
   }
   texture_of_.assign(file_.materials.size(), -1);
-  std::map<std::string, int> known;
+  std::map<std::pair<std::string, std::string>, int> known;
   std::uint64_t texels = 0;
   for (std::size_t i = 0; i < file_.materials.size(); ++i) {
     const FileMaterial& material = file_.materials[i];
     if (shown[i] == 0 || (material.texture.empty() && !material.picture)) continue;
-    const auto earlier = known.find(material.texture);
+    const auto earlier = known.find({material.file, material.texture});
     if (earlier != known.end() && !material.picture) {
       texture_of_[i] = earlier->second;
       continue;
     }
     try {
       if (!material.problem.empty()) throw Error(ErrorCode::bad_data, material.problem);
-      ColorImage image = material.picture ? *material.picture : readColorImage(files_.find(material.texture));
+      ColorImage image =
+          material.picture ? *material.picture : readColorImage(files_.find(material.texture, material.file));
       texels += image.pixels.size();
       if (texels > most_texels) throw Error(ErrorCode::bad_data, "all textures together have too many pixels");
       texture_of_[i] = int(result_.mesh.textures.size());
@@ -154,7 +157,7 @@ void Assembly::loadTextures() {
       result_.warnings.push_back("its texture '" + material.texture + "' cannot be used (" + error.what() + "); " +
                                  std::to_string(shown[i]) + " triangles show it");
     }
-    if (!material.picture) known[material.texture] = texture_of_[i];
+    if (!material.picture) known[{material.file, material.texture}] = texture_of_[i];
   }
 }
 

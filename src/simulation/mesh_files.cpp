@@ -79,29 +79,32 @@ std::string MeshFiles::allowed(const std::string& path) const {
   return folder_.empty() ? path : confinedPath(fs::absolute(path).string(), folder_);
 }
 
-std::string MeshFiles::find(const std::string& name) const {
+std::string MeshFiles::find(const std::string& name, const std::string& from) const {
   const std::string plain = plainName(name);
-  const fs::path here = fs::path(mesh_).parent_path();
   std::string reason = "it does not exist";
   if (plain.empty() || plain.find('\0') != std::string::npos) throw Error(ErrorCode::bad_file, "it has no name");
+  std::vector<fs::path> candidates;
   for (const std::string& spelling : {plain, decoded(plain)}) {
-    const fs::path beside = here / fs::path(spelling).filename();
-    for (const fs::path& path : {here / spelling, beside, inOtherCapitals(beside)}) {
-      if (path.empty() || !path.has_filename()) continue;
-      try {
-        std::string file = allowed(path.lexically_normal().string());
-        std::error_code ignored;
-        if (fs::exists(file, ignored)) return file;
-      } catch (const Error& error) {
-        reason = error.what();
-      }
+    for (const std::string& base : {from.empty() ? mesh_ : from, mesh_}) {
+      const fs::path folder = fs::path(base).parent_path(), beside = folder / fs::path(spelling).filename();
+      candidates.insert(candidates.end(), {folder / spelling, beside, inOtherCapitals(beside)});
+    }
+  }
+  for (const fs::path& candidate : candidates) {
+    if (!candidate.has_filename()) continue;
+    try {
+      std::string file = allowed(candidate.lexically_normal().string());
+      std::error_code ignored;
+      if (fs::exists(file, ignored)) return file;
+    } catch (const Error& error) {
+      reason = error.what();
     }
   }
   throw Error(ErrorCode::bad_file, reason);
 }
 
-std::string MeshFiles::read(const std::string& name) const {
-  return contentOf(find(name), largest_material_file);
+std::string MeshFiles::read(const std::string& path) {
+  return contentOf(path, largest_material_file);
 }
 
 std::string MeshFiles::readMesh() const {

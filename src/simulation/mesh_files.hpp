@@ -16,11 +16,12 @@ public:
   /// Ending of the mesh's name in lower case, e.g. ".obj".
   std::string ending() const;
 
-  /// Where a file lies that the mesh names: relative to the mesh, or, as exporters leave names of another machine
-  /// behind, under its last part beside the mesh, in capitals or not. @throws Error(bad_file) with the reason alone
-  std::string find(const std::string& name) const;
-  /// The content of such a file. @throws Error(bad_file) with the reason alone
-  std::string read(const std::string& name) const;
+  /// Where a file lies that the mesh names: relative to the file that names it or to the mesh, or, as exporters leave
+  /// names of another machine behind, under its last part beside these, in capitals or not.
+  /// @param from file that names it; empty: the mesh @throws Error(bad_file) with the reason alone
+  std::string find(const std::string& name, const std::string& from = "") const;
+  /// The content of a file that find() has found. @throws Error(bad_file) with the reason alone
+  static std::string read(const std::string& path);
   /// The content of the mesh itself. @throws Error(bad_file) with the reason alone
   std::string readMesh() const;
 

@@ -53,7 +53,8 @@ void readTexture(const TextLines& line, FileMaterial& material) {
 
 }  // namespace
 
-void readMaterials(const std::string& content, std::map<std::string, FileMaterial>& materials) {
+void readMaterials(const std::string& path, std::map<std::string, FileMaterial>& materials) {
+  const std::string content = MeshFiles::read(path);
   FileMaterial* material = nullptr;
   for (TextLines line(content); line.next();) {
     const std::string keyword = keywordOf(line.words()[0]);
@@ -61,6 +62,7 @@ void readMaterials(const std::string& content, std::map<std::string, FileMateria
       const std::string name = line.after(1);
       material = &(materials[name] = FileMaterial());
       material->name = name;
+      material->file = path;
     } else if (material != nullptr && keyword == "kd") {
       material->color = diffuseColor(line.words());
     } else if (material != nullptr && keyword == "map_kd") {

@@ -131,13 +131,13 @@ void ObjReader::useMaterial() {
 
 void ObjReader::addLibrary(const std::string& name, std::map<std::string, FileMaterial>& materials) {
   try {
-    readMaterials(files_.read(name), materials);
+    readMaterials(files_.find(name), materials);
     return;
   } catch (const Error&) {
     if (name.find(' ') == std::string::npos) throw;
   }
   std::istringstream names(name);  // it is no name with blanks: then these are several
-  for (std::string word; names >> word;) readMaterials(files_.read(word), materials);
+  for (std::string word; names >> word;) readMaterials(files_.find(word), materials);
 }
 
 void ObjReader::readLibraries() {

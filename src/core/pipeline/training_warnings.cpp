@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include <sks_detector/trainer.hpp>
+
+#include "core/settings/value_text.hpp"
+
+namespace sks {
+namespace {
+
+// Extents of what is still found by and large, in edges of a cell of keypoints.grid_size.
+constexpr double smallest_cells = 2, thinnest_cells = 1;
+constexpr double flattest = 0.012;  // [m] what rises less above a plane counts as a part of it
+
+/// Extents of an object in all its views, the largest first [m].
+Eigen::Vector3d extentsOf(const Codebook& codebook, std::uint32_t object) {
+  Eigen::Vector3d extents = Eigen::Vector3d::Zero();
+  for (const TrainingView& view : codebook.views) {
+    if (view.object == object) extents = extents.cwiseMax(view.extent().cast<double>());
+  }
+  std::sort(extents.data(), extents.data() + 3, std::greater<>());
+  return extents;
+}
+
+std::string inMillimetres(const Eigen::Vector3d& extents) {
+  std::string text;
+  for (const double extent : {extents[0], extents[1], extents[2]}) {
+    text += (text.empty() ? "" : " x ") + toText(std::round(10000 * extent) / 10);
+  }
+  return text + " mm";
+}
+
+/// A length in whole millimetres.
+std::string setting(double metres) {
+  return toText(std::max(0.001, std::floor(1000 * metres) / 1000));
+}
+
+}  // namespace
+
+std::vector<std::string> trainingWarnings(const Codebook& codebook) {
+  const Settings& settings = codebook.settings;
+  std::vector<std::string> warnings;
+  for (std::uint32_t i = 0; i < codebook.objects.size(); ++i) {
+    const Eigen::Vector3d extents = extentsOf(codebook, i);
+    const double cells = std::min(extents[0] / smallest_cells, extents[1] / thinnest_cells);
+    if (cells < settings.keypoints.grid_size) {
+      const double factor = cells / settings.keypoints.grid_size;
+      warnings.push_back("object '" + codebook.objects[i] + "' is " + inMillimetres(extents) +
+                         " large, which is too small for these settings; set keypoints.grid_size=" + setting(cells) +
+                         ", descriptor.radius=" + setting(factor * settings.descriptor.radius) +
+                         " and surface.normal_radius=" + setting(factor * settings.surface.normal_radius) +
+                         ", or check its unit");
+    } else if (extents[2] < flattest && settings.keypoints.skip_planes) {
+      warnings.push_back(
+          "object '" + codebook.objects[i] + "' is " + inMillimetres(extents) +
+          " large, so flat that it counts as a part of what it lies on; set keypoints.skip_planes=false");
+    }
+  }
+  return warnings;
+}
+
+}  // namespace sks
