@@ -118,7 +118,9 @@ std::string DataSetReader::cloudPath(const YamlMap& map) const {
   std::string path = resolve(map.text("cloud"));
   std::error_code ignored;
   if (fs::is_regular_file(path, ignored)) return path;
-  throw Error(ErrorCode::bad_file, file_ + ":" + std::to_string(map.at("cloud").Mark().line + 1) + ": cloud '" + path +
+  const std::string place = file_ + ":" + std::to_string(map.at("cloud").Mark().line + 1) + ": cloud '" + path;
+  if (fs::exists(path, ignored)) throw Error(ErrorCode::bad_file, place + "' is no regular file");
+  throw Error(ErrorCode::bad_file, place +
                                        "' does not exist; paths are relative to the data set file: correct the path or "
                                        "put the cloud there");
 }
