@@ -14,15 +14,15 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr int width = 5, height = 3;
+constexpr int picture_width = 5, picture_height = 3;
 
 /// Every pixel another colour, of which five bits of each channel survive.
-Rgb colorAt(int row, int column) {
+Rgb pixelColor(int row, int column) {
   return {std::uint8_t(255 * (row * 10 + 1) / 31), std::uint8_t(255 * (column * 5 + 2) / 31),
           std::uint8_t(255 * 7 / 31)};
 }
 
-std::string number(std::uint64_t value, int bytes) {
+std::string littleEndian(std::uint64_t value, int bytes) {
   std::string text;
   for (int i = 0; i < bytes; ++i) text += char(value >> (8 * i) & 255);
   return text;
@@ -33,11 +33,11 @@ protected:
   void expectPicture(const std::string& bytes, bool gray = false) const {
     test::writeFile(folder_.path("a.picture"), bytes);
     const ColorImage image = readColorImage(folder_.path("a.picture"));
-    ASSERT_EQ(image.width, width);
-    ASSERT_EQ(image.height, height);
-    for (int row = 0; row < height; ++row) {
-      for (int column = 0; column < width; ++column) {
-        const Rgb right = colorAt(row, column), read = image(row, column);
+    ASSERT_EQ(image.width, picture_width);
+    ASSERT_EQ(image.height, picture_height);
+    for (int row = 0; row < picture_height; ++row) {
+      for (int column = 0; column < picture_width; ++column) {
+        const Rgb right = pixelColor(row, column), read = image(row, column);
         EXPECT_NEAR(read.r, gray ? right.g : right.r, 1) << row << " " << column;
         EXPECT_NEAR(read.g, right.g, 1);
         EXPECT_NEAR(read.b, gray ? right.g : right.b, 1);
@@ -55,17 +55,17 @@ protected:
 
 std::string bytesOf(const Rgb& c, int bits) {
   if (bits == 16)
-    return number(std::uint64_t((c.r * 31 + 127) / 255) << 10 | std::uint64_t((c.g * 31 + 127) / 255) << 5 |
-                      std::uint64_t((c.b * 31 + 127) / 255),
-                  2);
+    return littleEndian(std::uint64_t((c.r * 31 + 127) / 255) << 10 | std::uint64_t((c.g * 31 + 127) / 255) << 5 |
+                            std::uint64_t((c.b * 31 + 127) / 255),
+                        2);
   std::string text = {char(c.b), char(c.g), char(c.r)};
   return bits == 32 ? text + '\x7f' : text;
 }
 
-std::string palette(int entry) {
+std::string paletteBytes(int entry) {
   std::string text;
-  for (int i = 0; i < width * height; ++i) {
-    const Rgb c = colorAt(i / width, i % width);
+  for (int i = 0; i < picture_width * picture_height; ++i) {
+    const Rgb c = pixelColor(i / picture_width, i % picture_width);
     text += std::string{char(c.b), char(c.g), char(c.r)} + (entry == 4 ? std::string(1, '\0') : "");
   }
   return text;
@@ -73,24 +73,25 @@ std::string palette(int entry) {
 
 /// @param header_size of the information, 12 for that of OS/2
 std::string bmp(int bits, bool from_top, int header_size = 40) {
-  const int used = bits <= 8 ? width * height : 0;
-  const std::string colors = used > 0 ? palette(header_size == 12 ? 3 : 4) : "";
-  std::string text = "BM" + number(0, 8) + number(std::uint64_t(14 + header_size) + colors.size(), 4);
-  text += number(std::uint64_t(header_size), 4);
+  const int used = bits <= 8 ? picture_width * picture_height : 0;
+  const std::string colors = used > 0 ? paletteBytes(header_size == 12 ? 3 : 4) : "";
+  std::string text = "BM" + littleEndian(0, 8) + littleEndian(std::uint64_t(14 + header_size) + colors.size(), 4);
+  text += littleEndian(std::uint64_t(header_size), 4);
   const int size_bytes = header_size == 12 ? 2 : 4;
-  text += number(width, size_bytes) + number(std::uint64_t(from_top ? -height : height), size_bytes) + number(1, 2) +
-          number(std::uint64_t(bits), 2);
-  if (header_size > 12) text += number(0, 16) + number(std::uint64_t(used), 4) + number(0, 4);
+  text += littleEndian(picture_width, size_bytes) +
+          littleEndian(std::uint64_t(from_top ? -picture_height : picture_height), size_bytes) + littleEndian(1, 2) +
+          littleEndian(std::uint64_t(bits), 2);
+  if (header_size > 12) text += littleEndian(0, 16) + littleEndian(std::uint64_t(used), 4) + littleEndian(0, 4);
   text.resize(std::size_t(14 + header_size), '\0');
   text += colors;
-  for (int k = 0; k < height; ++k) {
-    const int row = from_top ? k : height - 1 - k;
+  for (int k = 0; k < picture_height; ++k) {
+    const int row = from_top ? k : picture_height - 1 - k;
     std::string line;
-    for (int column = 0; column < width; ++column) {
-      const int index = row * width + column;
+    for (int column = 0; column < picture_width; ++column) {
+      const int index = row * picture_width + column;
       if (bits == 8) line += char(index);
-      if (bits == 4 && column % 2 == 0) line += char(index << 4 | (column + 1 < width ? index + 1 : 0));
-      if (bits >= 16) line += bytesOf(colorAt(row, column), bits);
+      if (bits == 4 && column % 2 == 0) line += char(index << 4 | (column + 1 < picture_width ? index + 1 : 0));
+      if (bits >= 16) line += bytesOf(pixelColor(row, column), bits);
     }
     line.resize((line.size() + 3) / 4 * 4, '\0');
     text += line;
@@ -99,20 +100,22 @@ std::string bmp(int bits, bool from_top, int header_size = 40) {
 }
 
 std::string tga(int kind, int bits, bool packed, bool from_top, bool from_right) {
-  std::string text = number(3, 1) + number(kind == 1 ? 1 : 0, 1) + number(std::uint64_t(kind + (packed ? 8 : 0)), 1);
-  text += number(0, 2) + number(kind == 1 ? width * height : 0, 2) + number(kind == 1 ? 24 : 0, 1) + number(0, 4);
-  text += number(width, 2) + number(height, 2) + number(std::uint64_t(bits), 1);
-  text += number((from_top ? 0x20 : 0) | (from_right ? 0x10 : 0), 1) + "id!";
-  if (kind == 1) text += palette(3);
-  for (int k = 0; k < height; ++k) {
-    const int row = from_top ? k : height - 1 - k;
-    if (packed) text += number(1, 1);  // two pixels as they are, then runs of one
-    for (int c = 0; c < width; ++c) {
-      const int column = from_right ? width - 1 - c : c;
-      if (packed && c >= 2) text += number(0x80, 1);
-      if (kind == 1) text += char(row * width + column);
-      if (kind == 2) text += bytesOf(colorAt(row, column), bits);
-      if (kind == 3) text += char(colorAt(row, column).g);
+  std::string text =
+      littleEndian(3, 1) + littleEndian(kind == 1 ? 1 : 0, 1) + littleEndian(std::uint64_t(kind + (packed ? 8 : 0)), 1);
+  text += littleEndian(0, 2) + littleEndian(kind == 1 ? picture_width * picture_height : 0, 2) +
+          littleEndian(kind == 1 ? 24 : 0, 1) + littleEndian(0, 4);
+  text += littleEndian(picture_width, 2) + littleEndian(picture_height, 2) + littleEndian(std::uint64_t(bits), 1);
+  text += littleEndian((from_top ? 0x20 : 0) | (from_right ? 0x10 : 0), 1) + "id!";
+  if (kind == 1) text += paletteBytes(3);
+  for (int k = 0; k < picture_height; ++k) {
+    const int row = from_top ? k : picture_height - 1 - k;
+    if (packed) text += littleEndian(1, 1);  // two pixels as they are, then runs of one
+    for (int c = 0; c < picture_width; ++c) {
+      const int column = from_right ? picture_width - 1 - c : c;
+      if (packed && c >= 2) text += littleEndian(0x80, 1);
+      if (kind == 1) text += char(row * picture_width + column);
+      if (kind == 2) text += bytesOf(pixelColor(row, column), bits);
+      if (kind == 3) text += char(pixelColor(row, column).g);
     }
   }
   return text;
@@ -145,9 +148,10 @@ TEST_F(PictureFormats, TgaOfAllKindsIsRead) {
 }
 
 TEST_F(PictureFormats, RunsRepeatAPixel) {
-  std::string text =
-      number(0, 2) + number(10, 1) + number(0, 9) + number(100, 2) + number(2, 2) + number(24, 1) + number(0, 1);
-  text += number(0x80 | 127, 1) + std::string("\x10\x20\x30") + number(0x80 | 71, 1) + std::string("\x01\x02\x03");
+  std::string text = littleEndian(0, 2) + littleEndian(10, 1) + littleEndian(0, 9) + littleEndian(100, 2) +
+                     littleEndian(2, 2) + littleEndian(24, 1) + littleEndian(0, 1);
+  text += littleEndian(0x80 | 127, 1) + std::string("\x10\x20\x30") + littleEndian(0x80 | 71, 1) +
+          std::string("\x01\x02\x03");
   test::writeFile(folder_.path("a.tga"), text);
   const ColorImage image = readColorImage(folder_.path("a.tga"));
   ASSERT_EQ(image.pixels.size(), 200u);
@@ -167,8 +171,8 @@ TEST_F(PictureFormats, WhatIsCutOffIsRefused) {
 
 TEST_F(PictureFormats, HugeOnesAreRefusedBeforeMemoryIsTaken) {
   std::string huge_bmp = bmp(24, false), huge_tga = tga(2, 24, true, true, false);
-  huge_bmp.replace(18, 8, number(100000, 4) + number(100000, 4));
-  huge_tga.replace(12, 4, number(65535, 2) + number(65535, 2));
+  huge_bmp.replace(18, 8, littleEndian(100000, 4) + littleEndian(100000, 4));
+  huge_tga.replace(12, 4, littleEndian(65535, 2) + littleEndian(65535, 2));
   for (const std::string& bytes : {huge_bmp, huge_tga}) {
     test::writeFile(folder_.path("a.picture"), bytes);
     EXPECT_THAT(test::errorOf(ErrorCode::bad_file, [&] { readColorImage(folder_.path("a.picture")); }),

@@ -8,7 +8,7 @@
 namespace sks {
 namespace {
 
-constexpr std::size_t file_header = 14;  // [bytes]
+constexpr std::size_t bmp_file_header = 14;  // [bytes]
 
 /// One channel of a pixel in 16 or 32 bits.
 struct Mask {
@@ -56,7 +56,7 @@ private:
 };
 
 void BmpReader::readHeader() {
-  const std::uint32_t header = bytes_.u32(file_header);
+  const std::uint32_t header = bytes_.u32(bmp_file_header);
   const bool old = header == 12;  // of OS/2
   if (!old && (header < 40 || header > 124)) throw CodecError("it is a BMP of an unknown kind");
   const std::int64_t width = old ? bytes_.u16(18) : std::int32_t(bytes_.u32(18));
@@ -72,7 +72,7 @@ void BmpReader::readHeader() {
   width_ = int(width);
   height_ = int(top_down_ ? -height : height);
   if (bits_ == 1 || bits_ == 4 || bits_ == 8) {
-    palette_ = file_header + header;
+    palette_ = bmp_file_header + header;
     palette_entry_ = old ? 3 : 4;
     const std::uint32_t used = old ? 0 : bytes_.u32(46);
     palette_size_ = used == 0 || used > (1u << bits_) ? 1u << bits_ : used;

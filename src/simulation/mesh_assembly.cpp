@@ -28,7 +28,7 @@ struct CornerTriangle {
 };
 
 /// Where the colour of a face comes from.
-enum class Paint { none, texture, vertices, plain };
+enum class ColorSource { none, texture, vertices, plain };
 
 /// Makes one mesh of one file.
 class Assembly {
@@ -42,11 +42,11 @@ private:
   void cutFaces();
   void loadTextures();
   bool mapped(const FileFace& face) const;
-  Paint paintOf(std::size_t face) const;
+  ColorSource sourceOf(std::size_t face) const;
   Rgb plainColor(std::size_t face) const;
   void count();
-  void addTriangle(const CornerTriangle& triangle, Paint paint);
-  int vertexOf(const FileCorner& corner, Paint paint, const Rgb& plain);
+  void addTriangle(const CornerTriangle& triangle, ColorSource paint);
+  int vertexOf(const FileCorner& corner, ColorSource paint, const Rgb& plain);
 
   /// What makes vertices of the mesh out of one of the file: its texture coordinate, and a colour of the face.
   using Key = std::tuple<std::uint32_t, std::int32_t, std::uint32_t>;
@@ -77,7 +77,7 @@ LoadedMesh Assembly::make() {
   loadTextures();
   count();
   for (const CornerTriangle& triangle : triangles_) {
-    addTriangle(triangle, colored_ ? paintOf(triangle.face) : Paint::none);
+    addTriangle(triangle, colored_ ? sourceOf(triangle.face) : ColorSource::none);
   }
   if (!colored_) result_.mesh.textures.clear();
   std::string left_out;
@@ -167,15 +167,15 @@ bool Assembly::mapped(const FileFace& face) const {
   return std::all_of(corner, corner + std::ptrdiff_t(face.count), [](const FileCorner& c) { return c.uv >= 0; });
 }
 
-Paint Assembly::paintOf(std::size_t index) const {
+ColorSource Assembly::sourceOf(std::size_t index) const {
   const FileFace& face = file_.faces[index];
-  if (face.material >= 0 && texture_of_[std::size_t(face.material)] >= 0 && mapped(face)) return Paint::texture;
-  if (face.vertex_colors) return Paint::vertices;
-  if (!file_.face_colors.empty()) return Paint::plain;
-  if (face.material < 0) return Paint::none;
+  if (face.material >= 0 && texture_of_[std::size_t(face.material)] >= 0 && mapped(face)) return ColorSource::texture;
+  if (face.vertex_colors) return ColorSource::vertices;
+  if (!file_.face_colors.empty()) return ColorSource::plain;
+  if (face.material < 0) return ColorSource::none;
   // The colour of a material with a texture only dyes that: without it, it says nothing.
   const FileMaterial& material = file_.materials[std::size_t(face.material)];
-  return material.color && material.texture.empty() && !material.picture ? Paint::plain : Paint::none;
+  return material.color && material.texture.empty() && !material.picture ? ColorSource::plain : ColorSource::none;
 }
 
 Rgb Assembly::plainColor(std::size_t index) const {
@@ -186,8 +186,8 @@ Rgb Assembly::plainColor(std::size_t index) const {
 void Assembly::count() {
   MeshColors& colors = result_.file_colors;
   for (const CornerTriangle& triangle : triangles_) {
-    const Paint paint = paintOf(triangle.face);
-    ++(paint == Paint::texture ? colors.textured : paint == Paint::none ? colors.none : colors.painted);
+    const ColorSource paint = sourceOf(triangle.face);
+    ++(paint == ColorSource::texture ? colors.textured : paint == ColorSource::none ? colors.none : colors.painted);
   }
   colored_ = colors.none == 0;
   if (colored_ || (colors.textured + colors.painted == 0 && file_.materials.empty())) return;
@@ -196,16 +196,16 @@ void Assembly::count() {
                              "all of it a colour in a mesh editor to have it used with colour");
 }
 
-int Assembly::vertexOf(const FileCorner& corner, Paint paint, const Rgb& plain) {
-  const std::int32_t uv = paint == Paint::texture ? corner.uv : -1;
+int Assembly::vertexOf(const FileCorner& corner, ColorSource paint, const Rgb& plain) {
+  const std::int32_t uv = paint == ColorSource::texture ? corner.uv : -1;
   const std::uint32_t color =
-      paint == Paint::plain ? 0x1000000u | unsigned(plain.r) << 16 | unsigned(plain.g) << 8 | plain.b : 0;
+      paint == ColorSource::plain ? 0x1000000u | unsigned(plain.r) << 16 | unsigned(plain.g) << 8 | plain.b : 0;
   Mesh& mesh = result_.mesh;
   const auto [found, is_new] = known_.try_emplace({corner.vertex, uv, color}, int(mesh.vertices.size()));
   if (!is_new) return found->second;
   mesh.vertices.push_back(file_.vertices[corner.vertex]);
   if (result_.file_colors.painted > 0 && colored_) {
-    const bool own = paint == Paint::vertices || (paint == Paint::texture && !file_.vertex_colors.empty());
+    const bool own = paint == ColorSource::vertices || (paint == ColorSource::texture && !file_.vertex_colors.empty());
     mesh.colors.push_back(own ? file_.vertex_colors[corner.vertex] : plain);
   }
   if (colored_ && !mesh.textures.empty()) {
@@ -214,8 +214,8 @@ int Assembly::vertexOf(const FileCorner& corner, Paint paint, const Rgb& plain) 
   return found->second;
 }
 
-void Assembly::addTriangle(const CornerTriangle& triangle, Paint paint) {
-  const Rgb plain = paint == Paint::plain ? plainColor(triangle.face) : Rgb{};
+void Assembly::addTriangle(const CornerTriangle& triangle, ColorSource paint) {
+  const Rgb plain = paint == ColorSource::plain ? plainColor(triangle.face) : Rgb{};
   Eigen::Vector3i corners;
   for (std::size_t k = 0; k < 3; ++k) {
     corners[Eigen::Index(k)] = vertexOf(file_.corners[triangle.corners[k]], paint, plain);
@@ -224,7 +224,7 @@ void Assembly::addTriangle(const CornerTriangle& triangle, Paint paint) {
   mesh.triangles.push_back(corners);
   if (!colored_ || mesh.textures.empty()) return;
   const int material = file_.faces[triangle.face].material;
-  mesh.triangle_texture.push_back(paint == Paint::texture ? texture_of_[std::size_t(material)] : -1);
+  mesh.triangle_texture.push_back(paint == ColorSource::texture ? texture_of_[std::size_t(material)] : -1);
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 namespace sks {
 namespace {
 
-constexpr double largest_in_metres = 5;            // what is wider across must be given in millimetres
-constexpr double smallest = 0.001, largest = 100;  // across [m]
+constexpr double largest_in_metres = 5;                      // what is wider across must be given in millimetres
+constexpr double smallest_mesh = 0.001, largest_mesh = 100;  // across [m]
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
   throw Error(ErrorCode::bad_file, "cannot read mesh '" + path + "': " + reason);
@@ -56,7 +56,7 @@ void applyScale(double scale, bool in_metres, LoadedMesh& loaded) {
                                 "the data set or by --scale");
     }
   }
-  if (!(diagonal * scale >= smallest && diagonal * scale <= largest)) {
+  if (!(diagonal * scale >= smallest_mesh && diagonal * scale <= largest_mesh)) {
     throw Error(ErrorCode::bad_data, "it would be " + sizeText(sizes, 1000 * scale) +
                                          " mm large, and can be from 1 mm to 100 m; is its unit "
                                          "another one? See `units:` of the data set and --scale");

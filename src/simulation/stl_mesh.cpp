@@ -15,7 +15,7 @@
 namespace sks {
 namespace {
 
-constexpr std::size_t header_size = 84, facet_size = 50;  // of a binary file [bytes]
+constexpr std::size_t stl_header_size = 84, stl_facet_size = 50;  // of a binary file [bytes]
 
 [[noreturn]] void badStl(const std::string& message) {
   throw Error(ErrorCode::bad_data, message);
@@ -64,9 +64,9 @@ private:
 
 FileMesh readBinary(const std::string& content) {
   const std::size_t facets = wordAt(content, 80);
-  if (content.size() < header_size + facets * facet_size) {
+  if (content.size() < stl_header_size + facets * stl_facet_size) {
     badStl("it is cut off: it says " + std::to_string(facets) + " triangles, but holds " +
-           std::to_string((content.size() - header_size) / facet_size));
+           std::to_string((content.size() - stl_header_size) / stl_facet_size));
   }
   FileMesh mesh;
   StlVertices vertices(mesh);
@@ -74,7 +74,7 @@ FileMesh readBinary(const std::string& content) {
     for (std::size_t corner = 0; corner < 3; ++corner) {
       std::array<float, 3> position;
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::uint32_t bits = wordAt(content, header_size + i * facet_size + 12 * (corner + 1) + 4 * axis);
+        const std::uint32_t bits = wordAt(content, stl_header_size + i * stl_facet_size + 12 * (corner + 1) + 4 * axis);
         std::memcpy(&position[axis], &bits, sizeof(bits));
       }
       vertices.addCorner(position);
@@ -145,8 +145,8 @@ bool isText(const std::string& content) {
 }  // namespace
 
 FileMesh readStlMesh(const std::string& content) {
-  const bool sized = content.size() >= header_size;
-  if (sized && content.size() == header_size + wordAt(content, 80) * facet_size) return readBinary(content);
+  const bool sized = content.size() >= stl_header_size;
+  if (sized && content.size() == stl_header_size + wordAt(content, 80) * stl_facet_size) return readBinary(content);
   if (isText(content)) return readText(content);
   if (!sized) badStl("it is neither a text nor a binary STL file");
   return readBinary(content);

@@ -6,7 +6,7 @@
 namespace sks {
 namespace {
 
-const char* const blanks = " \t\v\f";
+const char* const line_blanks = " \t\v\f";
 
 /// Where a comment begins; names may hold a '#', too.
 std::size_t commentIn(const std::string& line) {
@@ -36,10 +36,10 @@ bool TextLines::next() {
       if (continued) line_.back() = ' ';
     }
     const std::string_view line = std::string_view(line_).substr(0, commentIn(line_));
-    for (std::size_t at = line.find_first_not_of(blanks); at < line.size();) {
-      const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
+    for (std::size_t at = line.find_first_not_of(line_blanks); at < line.size();) {
+      const std::size_t end = std::min(line.find_first_of(line_blanks, at), line.size());
       words_.push_back(line.substr(at, end - at));
-      at = line.find_first_not_of(blanks, end);
+      at = line.find_first_not_of(line_blanks, end);
     }
   }
   return !words_.empty();

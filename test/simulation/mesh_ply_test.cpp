@@ -14,13 +14,13 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr std::array<const char*, 3> usual = {"red", "green", "blue"};
-const std::vector<std::string> formats = {"ascii", "binary_little_endian", "binary_big_endian"};
+constexpr std::array<const char*, 3> usual_names = {"red", "green", "blue"};
+const std::vector<std::string> ply_formats = {"ascii", "binary_little_endian", "binary_big_endian"};
 
 class PlyMesh : public test::MeshFileTest {};
 
 TEST_F(PlyMesh, WithoutColourHasNone) {
-  for (const std::string& format : formats) {
+  for (const std::string& format : ply_formats) {
     const LoadedMesh loaded = loadMesh(write("a.ply", boxPly(format, {"", "", ""})));
     test::expectPlainBox(loaded.mesh);
     EXPECT_THAT(loaded.warnings, IsEmpty());
@@ -34,8 +34,8 @@ TEST_F(PlyMesh, ColoursGoByManyNamesAndTypes) {
     double range;
   };
   const std::vector<std::array<const char*, 3>> names = {
-      usual, {"diffuse_red", "diffuse_green", "diffuse_blue"}, {"r", "g", "b"}};
-  for (const std::string& format : formats) {
+      usual_names, {"diffuse_red", "diffuse_green", "diffuse_blue"}, {"r", "g", "b"}};
+  for (const std::string& format : ply_formats) {
     for (const auto& channels : names) {
       for (const Kind& kind : {Kind{"uchar", 255}, Kind{"ushort", 65535}, Kind{"ushort", 255}, Kind{"int", 255},
                                Kind{"float", 1}, Kind{"float", 255}, Kind{"double", 1}}) {
@@ -49,7 +49,8 @@ TEST_F(PlyMesh, ColoursGoByManyNamesAndTypes) {
 }
 
 TEST_F(PlyMesh, AlphaIsNotUsed) {
-  test::expectColoredBox(loadMesh(write("a.ply", boxPly("binary_little_endian", usual, "uchar", 255, true))).mesh);
+  test::expectColoredBox(
+      loadMesh(write("a.ply", boxPly("binary_little_endian", usual_names, "uchar", 255, true))).mesh);
 }
 
 TEST_F(PlyMesh, ColoursThatAreNotFiniteAreNone) {
@@ -65,14 +66,14 @@ TEST_F(PlyMesh, ColoursThatAreNotFiniteAreNone) {
 }
 
 TEST_F(PlyMesh, AllLineEndsAreRead) {
-  std::string text = boxPly("ascii", usual);
+  std::string text = boxPly("ascii", usual_names);
   for (const std::string end : {"\r\n", "\r"}) {
     std::string other;
     for (const char c : text) other += c == '\n' ? end : std::string(1, c);
     test::expectColoredBox(loadMesh(write("a.ply", other)).mesh);
   }
   // binary data behind such a header
-  std::string binary = boxPly("binary_little_endian", usual);
+  std::string binary = boxPly("binary_little_endian", usual_names);
   const std::size_t size = binary.find("end_header\n") + 11;
   std::replace(binary.begin(), binary.begin() + std::ptrdiff_t(size), '\n', '\r');
   test::expectColoredBox(loadMesh(write("a.ply", binary)).mesh);
@@ -117,7 +118,7 @@ std::string wedgePly(const std::string& format, int pictures, bool polygons = fa
 
 TEST_F(PlyMesh, TextureCoordinatesOfFacesGiveTheColoursOfThePicture) {
   write("atlas.png", encodePng(test::boxAtlas()));
-  for (const std::string& format : formats) {
+  for (const std::string& format : ply_formats) {
     for (const bool polygons : {false, true}) {
       const LoadedMesh loaded = loadMesh(write("a.ply", wedgePly(format, 1, polygons)));
       test::expectColoredBox(loaded.mesh);
@@ -136,7 +137,7 @@ TEST_F(PlyMesh, SeveralPicturesAreToldApartByTheirNumber) {
   }
   write("low.png", encodePng(low));
   write("my high.png", encodePng(high));
-  for (const std::string& format : formats) {
+  for (const std::string& format : ply_formats) {
     test::expectColoredBox(loadMesh(write("a.ply", wedgePly(format, 2))).mesh);
   }
 }
@@ -187,7 +188,7 @@ TEST_F(PlyMesh, FacesMayHaveColours) {
   test::PlyText ply("ascii");
   ply.line("element vertex 24").line("property float x").line("property float y").line("property float z");
   ply.line("element face 6").line("property list uchar uint vertex_index");
-  for (const char* name : usual) ply.line(std::string("property uchar ") + name);
+  for (const char* name : usual_names) ply.line(std::string("property uchar ") + name);
   std::string text = ply.text();
   for (const Eigen::Vector3f& c : test::boxCorners()) {
     text += std::to_string(c.x()) + " " + std::to_string(c.y()) + " " + std::to_string(c.z()) + "\n";

@@ -62,13 +62,13 @@ struct Unit {
   const char* element;
   float per_metre;
 };
-const std::vector<Unit> units = {{"<unit name=\"millimeter\" meter=\"0.001\"/>", 1000},
-                                 {"<unit meter='0.01' name='centimeter'/>", 100},
-                                 {"<unit name=\"inch\" meter=\"0.0254\"/>", 1 / 0.0254f},
-                                 {"<unit name=\"meter\" meter=\"1\"/>", 1}};
+const std::vector<Unit> dae_units = {{"<unit name=\"millimeter\" meter=\"0.001\"/>", 1000},
+                                     {"<unit meter='0.01' name='centimeter'/>", 100},
+                                     {"<unit name=\"inch\" meter=\"0.0254\"/>", 1 / 0.0254f},
+                                     {"<unit name=\"meter\" meter=\"1\"/>", 1}};
 
 TEST_F(MeshUnits, ColladaFilesHaveTheirOwn) {
-  for (const Unit& unit : units) {
+  for (const Unit& unit : dae_units) {
     for (const char* up : {"X_UP", "Y_UP", "Z_UP"}) {
       const std::string path = write("a.dae", boxDae(unit.element, unit.per_metre, up));
       for (const double given : {0.0, 0.001, 0.0254}) {
@@ -113,7 +113,7 @@ TEST_F(MeshUnits, OfTheDataSetOrOfItsEntry) {
 }
 
 TEST_F(MeshUnits, AUnitForAFileWithItsOwnIsAWarning) {
-  write("a.dae", boxDae(units[0].element, units[0].per_metre));
+  write("a.dae", boxDae(dae_units[0].element, dae_units[0].per_metre));
   expectBox(trainedSize("mm", "cloud: a.dae, units: cm"));
   EXPECT_THAT(warnings_, ElementsAre(HasSubstr("a.dae: it states its unit itself")));
 }
