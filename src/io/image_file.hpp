@@ -35,6 +35,9 @@ constexpr std::uint64_t max_image_pixels = std::uint64_t(1) << 26;
 /// @throws Error(bad_file) naming the path and what is wrong, also where it has too many pixels
 ColorImage readColorImage(const std::string& path);
 
+/// The same from the bytes of a file. @throws Error(bad_data) saying what is wrong
+ColorImage decodeColorImage(const std::string& bytes);
+
 /// Reads a PNG of one channel with 16 bits. @throws Error(bad_file)
 DepthImage readDepthImage(const std::string& path);
 

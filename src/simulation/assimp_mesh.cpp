@@ -51,29 +51,58 @@ Rgb rgbOf(const aiColor4D& color) {
   return {byte(color.r), byte(color.g), byte(color.b)};
 }
 
-FileMaterial materialOf(const aiMaterial& source) {
+/// What assimp fills in where a file states no colour: grey for COLLADA, white for glTF.
+bool stated(const aiColor4D& color, bool gltf) {
+  const float unstated = gltf ? 1.0f : 0.6f;
+  return color.r != unstated || color.g != unstated || color.b != unstated;
+}
+
+void addTexture(const aiScene& scene, const aiMaterial& source, FileMaterial& material) {
+  aiString name;
+  if (source.GetTexture(aiTextureType_DIFFUSE, 0, &name) != aiReturn_SUCCESS) return;
+  material.texture = name.C_Str();
+  aiUVTransform moved;
+  if (source.Get(AI_MATKEY_UVTRANSFORM(aiTextureType_DIFFUSE, 0), moved) == aiReturn_SUCCESS &&
+      (moved.mTranslation != aiVector2D(0, 0) || moved.mScaling != aiVector2D(1, 1) || moved.mRotation != 0)) {
+    material.problem = "it is moved or scaled, which is not understood";
+  }
+  const aiTexture* inside = scene.GetEmbeddedTexture(name.C_Str());
+  if (inside == nullptr || inside->mHeight != 0) return;
+  try {
+    material.picture = decodeColorImage(std::string(reinterpret_cast<const char*>(inside->pcData), inside->mWidth));
+  } catch (const Error& error) {
+    material.problem = error.what();
+  }
+}
+
+FileMaterial materialOf(const aiScene& scene, const aiMaterial& source, bool gltf) {
   FileMaterial material;
   material.name = source.GetName().C_Str();
-  aiString texture;
-  if (source.GetTexture(aiTextureType_DIFFUSE, 0, &texture) == aiReturn_SUCCESS) material.texture = texture.C_Str();
+  addTexture(scene, source, material);
   aiColor4D color;
   const bool own = material.name != AI_DEFAULT_MATERIAL_NAME;
-  if (own && source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS) {
-    constexpr float unstated = 0.6f;  // what assimp fills in
-    if (color.r != unstated || color.g != unstated || color.b != unstated) material.color = rgbOf(color);
+  if (own && source.Get(AI_MATKEY_COLOR_DIFFUSE, color) == aiReturn_SUCCESS && stated(color, gltf)) {
+    material.color = rgbOf(color);
   }
   return material;
 }
 
+/// Which of the sets of texture coordinates a material's texture is laid out by.
+unsigned uvSetOf(const aiMaterial& material) {
+  int set = 0;
+  const bool there = material.Get(AI_MATKEY_UVWSRC(aiTextureType_DIFFUSE, 0), set) == aiReturn_SUCCESS;
+  return there && set >= 0 && set < AI_MAX_NUMBER_OF_TEXTURECOORDS ? unsigned(set) : 0;
+}
+
 /// Adds one of assimp's meshes, which are in one frame by now.
-void addPart(const aiMesh& part, FileMesh& mesh) {
+void addPart(const aiMesh& part, unsigned uv_set, FileMesh& mesh) {
   const std::size_t first = mesh.vertices.size(), first_uv = mesh.uv.size();
-  const bool colors = part.HasVertexColors(0), uv = part.HasTextureCoords(0);
+  const bool colors = part.HasVertexColors(0), uv = part.HasTextureCoords(uv_set);
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D& v = part.mVertices[i];
     mesh.vertices.emplace_back(v.x, v.y, v.z);
     mesh.vertex_colors.push_back(colors ? rgbOf(part.mColors[0][i]) : Rgb{});
-    if (uv) mesh.uv.emplace_back(part.mTextureCoords[0][i].x, part.mTextureCoords[0][i].y);
+    if (uv) mesh.uv.emplace_back(part.mTextureCoords[uv_set][i].x, part.mTextureCoords[uv_set][i].y);
   }
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
@@ -88,6 +117,7 @@ void addPart(const aiMesh& part, FileMesh& mesh) {
 }  // namespace
 
 FileMesh readAssimpMesh(const MeshFiles& files) {
+  const bool gltf = files.ending() != ".dae";
   Assimp::Importer importer;
   importer.SetIOHandler(std::make_unique<AssimpFiles>(files).release());         // the importer deletes it
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // the file's own axes are the model's
@@ -98,9 +128,14 @@ FileMesh readAssimpMesh(const MeshFiles& files) {
   }
   if (scene == nullptr) badScene(importer.GetErrorString());
   FileMesh mesh;
-  for (unsigned i = 0; i < scene->mNumMaterials; ++i) mesh.materials.push_back(materialOf(*scene->mMaterials[i]));
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) addPart(*scene->mMeshes[i], mesh);
-  mesh.in_metres = statesUnit(files.readMesh());
+  for (unsigned i = 0; i < scene->mNumMaterials; ++i) {
+    mesh.materials.push_back(materialOf(*scene, *scene->mMaterials[i], gltf));
+  }
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
+    const aiMesh& part = *scene->mMeshes[i];
+    addPart(part, uvSetOf(*scene->mMaterials[part.mMaterialIndex]), mesh);
+  }
+  mesh.in_metres = gltf || statesUnit(files.readMesh());
   return mesh;
 }
 

@@ -71,7 +71,7 @@ constexpr std::uint32_t missing_vertex = 0xffffffff;
 FileMesh readPlyMesh(const std::string& content);
 FileMesh readStlMesh(const std::string& content);
 FileMesh readObjMesh(const std::string& content, const MeshFiles& files);
-/// What assimp reads: DAE.
+/// What assimp reads: DAE, and glTF, whose unit is always the metre.
 FileMesh readAssimpMesh(const MeshFiles& files);
 
 /// The materials of an MTL file, added to those that there are. @throws Error(bad_file) without its name

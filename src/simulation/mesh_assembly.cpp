@@ -101,10 +101,6 @@ void Assembly::checkCorners() const {
     if (std::size_t(corner.uv) >= file_.uv.size()) {
       badMesh("it has a face with a texture coordinate that is not in the file; copy it again");
     }
-    if (!(file_.uv[std::size_t(corner.uv)].array().abs() <= farthest_uv).all()) {
-      badMesh("it has a texture coordinate that is not finite or larger than " + std::to_string(int(farthest_uv)) +
-              "; repair it in a mesh editor");
-    }
   }
 }
 
@@ -210,6 +206,10 @@ int Assembly::vertexOf(const FileCorner& corner, ColorSource paint, const Rgb& p
   }
   if (colored_ && !mesh.textures.empty()) {
     mesh.texture_uv.push_back(uv < 0 ? Eigen::Vector2f(0, 0) : file_.uv[std::size_t(uv)]);
+    if (!(mesh.texture_uv.back().array().abs() <= farthest_uv).all()) {
+      badMesh("it has a texture coordinate that is not finite or larger than " + std::to_string(int(farthest_uv)) +
+              "; repair it in a mesh editor");
+    }
   }
   return found->second;
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -23,10 +25,11 @@ FileMesh readFileMesh(const MeshFiles& files) {
   if (ending == ".ply") return readPlyMesh(files.readMesh());
   if (ending == ".stl") return readStlMesh(files.readMesh());
   if (ending == ".obj") return readObjMesh(files.readMesh(), files);
-  if (ending == ".dae") return readAssimpMesh(files);
-  throw Error(ErrorCode::bad_data,
-              "it is not called like an OBJ, PLY, STL or DAE file; other formats can be converted in a mesh editor, "
-              "for example by MeshLab or Blender");
+  if (isMeshName(files.mesh())) return readAssimpMesh(files);
+  throw Error(
+      ErrorCode::bad_data,
+      "it is not called like an OBJ, PLY, STL, DAE or glTF file; other formats can be converted in a mesh editor, "
+      "for example by MeshLab or Blender");
 }
 
 std::string sizeText(const Eigen::Vector3f& sizes, double scale) {
@@ -68,18 +71,19 @@ void applyScale(double scale, bool in_metres, LoadedMesh& loaded) {
 
 bool isMeshName(const std::string& path) {
   const std::string ending = MeshFiles(path, "").ending();
-  return ending == ".ply" || ending == ".stl" || ending == ".obj" || ending == ".dae";
+  const std::array<const char*, 6> known = {".ply", ".stl", ".obj", ".dae", ".gltf", ".glb"};
+  return std::find(known.begin(), known.end(), ending) != known.end();
 }
 
 LoadedMesh loadMesh(const std::string& path, double scale, const std::string& folder) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
-    fail(path, "it is a folder; give the name of an OBJ, PLY, STL or DAE file");
+    fail(path, "it is a folder; give the name of a mesh file");
   }
   if (!std::filesystem::exists(path, ignored)) fail(path, "it does not exist");
   if (!(std::isfinite(scale) && scale < 1e6)) fail(path, "the scale must be less than a million metres per unit");
   try {
-    const MeshFiles files(path, folder);
+    const MeshFiles files(std::filesystem::absolute(path).string(), folder);
     const FileMesh file = readFileMesh(files);
     LoadedMesh loaded = assembleMesh(file, files);
     applyScale(scale, file.in_metres, loaded);

@@ -51,7 +51,7 @@ void runVerify(const InfoOptions& options) {
 void addInfo(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "shows what a codebook or a mesh holds");
   const auto options = std::make_shared<InfoOptions>();
-  command->add_option("file", options->codebook, "codebook (*.sks) or mesh (OBJ, PLY, STL, DAE, builtin:mug)")
+  command->add_option("file", options->codebook, "codebook (*.sks) or mesh (OBJ, PLY, STL, DAE, glTF, builtin:mug)")
       ->required()
       ->type_name("FILE");
   addMeshScale(*command, options->scale);

@@ -36,7 +36,7 @@ void addMeshScale(CLI::App& command, std::string& text) {
 void MeshOptions::add(CLI::App& command) {
   command
       .add_option("--mesh", meshes_,
-                  "an object's mesh (OBJ, PLY, STL, DAE), or builtin:mug and the like; can be repeated")
+                  "an object's mesh (OBJ, PLY, STL, DAE, glTF), or builtin:mug and the like; can be repeated")
       ->type_name("NAME=FILE")
       ->allow_extra_args(true);
   addMeshScale(command, scale_);

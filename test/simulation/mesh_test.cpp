@@ -48,7 +48,7 @@ TEST_F(MeshFile, ObjIsReadInMetres) {
 }
 
 TEST_F(MeshFile, OtherFormatsAreNotTried) {
-  EXPECT_THAT(refusal(write("a.blend", triangle)), HasSubstr("not called like an OBJ, PLY, STL or DAE file"));
+  EXPECT_THAT(refusal(write("a.blend", triangle)), HasSubstr("not called like an OBJ, PLY, STL, DAE or glTF file"));
   EXPECT_EQ(loadMesh(write("A.OBJ", triangle)).mesh.triangles.size(), 1u);
 }
 
@@ -95,7 +95,7 @@ TEST_F(MeshFile, DaeKeepsItsAxesAndItsUnit) {
 
 TEST_F(MeshFile, RefusesWhatCannotBeUsed) {
   EXPECT_THAT(refusal(folder_.path("gone.obj")), HasSubstr("gone.obj': it does not exist"));
-  EXPECT_THAT(refusal(folder_.path()), HasSubstr("it is a folder; give the name of an OBJ, PLY, STL or DAE file"));
+  EXPECT_THAT(refusal(folder_.path()), HasSubstr("it is a folder; give the name of a mesh file"));
   EXPECT_THAT(refusal(write("points.ply",
                             "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
                             "property float z\nend_header\n0 0 0\n")),

@@ -49,15 +49,15 @@ struct LoadedMesh {
   bool states_unit = false;           ///< the file states its unit: it was used, whatever scale was given
 };
 
-/// Reads an OBJ, PLY, STL or DAE file with its textures and colours (docs/formats.md). A mesh has a colour only where
-/// its file states one for all of it.
+/// Reads an OBJ, PLY, STL, DAE or glTF file with its textures and colours (docs/formats.md). A mesh has a colour only
+/// where its file states one for all of it.
 /// @param scale factor from the file's unit to metres, for files that do not state it; 0: recognised, a mesh of more
 ///        than 5 units across is taken for millimetres with a warning
 /// @param folder no file outside of it is read, whatever the mesh names; empty: no confinement
 /// @throws Error(bad_file) naming the file and what is wrong: missing, damaged, no triangles, not finite, no extent
 LoadedMesh loadMesh(const std::string& path, double scale = 0, const std::string& folder = "");
 
-/// Whether a file is called like one that loadMesh() reads: *.obj, *.ply, *.stl, *.dae.
+/// Whether a file is called like one that loadMesh() reads: *.obj, *.ply, *.stl, *.dae, *.gltf, *.glb.
 bool isMeshName(const std::string& path);
 
 }  // namespace sks
