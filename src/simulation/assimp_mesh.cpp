@@ -95,7 +95,9 @@ unsigned uvSetOf(const aiMaterial& material) {
 }
 
 /// Adds one of assimp's meshes, which are in one frame by now.
-void addPart(const aiMesh& part, unsigned uv_set, FileMesh& mesh) {
+void addPart(const aiMesh& part, const aiMaterial& material, FileMesh& mesh) {
+  const unsigned uv_set = uvSetOf(material);
+  const bool own = std::string(material.GetName().C_Str()) != AI_DEFAULT_MATERIAL_NAME;
   const std::size_t first = mesh.vertices.size(), first_uv = mesh.uv.size();
   const bool colors = part.HasVertexColors(0), uv = part.HasTextureCoords(uv_set);
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
@@ -110,7 +112,7 @@ void addPart(const aiMesh& part, unsigned uv_set, FileMesh& mesh) {
       const std::size_t index = face.mIndices[k];
       mesh.corners.push_back({std::uint32_t(first + index), uv ? std::int32_t(first_uv + index) : -1});
     }
-    mesh.endFace(int(part.mMaterialIndex), colors);
+    mesh.endFace(own ? int(part.mMaterialIndex) : -1, colors);
   }
 }
 
@@ -133,7 +135,7 @@ FileMesh readAssimpMesh(const MeshFiles& files) {
   }
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) {
     const aiMesh& part = *scene->mMeshes[i];
-    addPart(part, uvSetOf(*scene->mMaterials[part.mMaterialIndex]), mesh);
+    addPart(part, *scene->mMaterials[part.mMaterialIndex], mesh);
   }
   mesh.in_metres = gltf || statesUnit(files.readMesh());
   return mesh;

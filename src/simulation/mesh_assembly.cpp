@@ -39,6 +39,7 @@ public:
 
 private:
   void checkCorners() const;
+  void checkTextureCoordinates() const;
   void cutFaces();
   void loadTextures();
   bool mapped(const FileFace& face) const;
@@ -72,6 +73,7 @@ LoadedMesh Assembly::make() {
   left_out_ = file_.left_out;
   result_.warnings = file_.warnings;
   checkCorners();
+  checkTextureCoordinates();
   cutFaces();
   if (triangles_.empty()) badMesh("it has no triangles; a point cloud goes with `kind: model` or `kind: view`");
   loadTextures();
@@ -100,6 +102,20 @@ void Assembly::checkCorners() const {
     if (corner.uv < 0) continue;
     if (std::size_t(corner.uv) >= file_.uv.size()) {
       badMesh("it has a face with a texture coordinate that is not in the file; copy it again");
+    }
+  }
+}
+
+/// Whether or not the texture can be read.
+void Assembly::checkTextureCoordinates() const {
+  for (const FileFace& face : file_.faces) {
+    if (face.material < 0 || !mapped(face)) continue;
+    const FileMaterial& material = file_.materials[std::size_t(face.material)];
+    if (material.texture.empty() && !material.picture) continue;
+    for (std::size_t k = face.first; k < face.first + face.count; ++k) {
+      if ((file_.uv[std::size_t(file_.corners[k].uv)].array().abs() <= farthest_uv).all()) continue;
+      badMesh("it has a texture coordinate that is not finite or larger than " + std::to_string(int(farthest_uv)) +
+              "; repair it in a mesh editor");
     }
   }
 }
@@ -186,7 +202,9 @@ void Assembly::count() {
     ++(paint == ColorSource::texture ? colors.textured : paint == ColorSource::none ? colors.none : colors.painted);
   }
   colored_ = colors.none == 0;
-  if (colored_ || (colors.textured + colors.painted == 0 && file_.materials.empty())) return;
+  const bool expected =
+      std::any_of(file_.faces.begin(), file_.faces.end(), [](const FileFace& f) { return f.material >= 0; });
+  if (colored_ || (colors.textured + colors.painted == 0 && !expected)) return;
   result_.warnings.push_back(std::to_string(colors.none) + " of its " + std::to_string(triangles_.size()) +
                              " triangles have no colour, so that it is used without colour, by its shape alone; give "
                              "all of it a colour in a mesh editor to have it used with colour");
@@ -206,10 +224,6 @@ int Assembly::vertexOf(const FileCorner& corner, ColorSource paint, const Rgb& p
   }
   if (colored_ && !mesh.textures.empty()) {
     mesh.texture_uv.push_back(uv < 0 ? Eigen::Vector2f(0, 0) : file_.uv[std::size_t(uv)]);
-    if (!(mesh.texture_uv.back().array().abs() <= farthest_uv).all()) {
-      badMesh("it has a texture coordinate that is not finite or larger than " + std::to_string(int(farthest_uv)) +
-              "; repair it in a mesh editor");
-    }
   }
   return found->second;
 }
