@@ -59,8 +59,8 @@ void BmpReader::readHeader() {
   const std::uint32_t header = bytes_.u32(bmp_file_header);
   const bool old = header == 12;  // of OS/2
   if (!old && (header < 40 || header > 124)) throw CodecError("it is a BMP of an unknown kind");
-  const std::int64_t width = old ? bytes_.u16(18) : std::int32_t(bytes_.u32(18));
-  const std::int64_t height = old ? bytes_.u16(20) : std::int32_t(bytes_.u32(22));
+  const std::int32_t width = std::int32_t(old ? bytes_.u16(18) : bytes_.u32(18));
+  const std::int64_t height = std::int32_t(old ? bytes_.u16(20) : bytes_.u32(22));  // negative: from the top
   bits_ = bytes_.u16(old ? 24 : 28);
   const std::uint32_t compression = old ? 0 : bytes_.u32(30);
   if (compression != 0 && compression != 3 && compression != 6) {
@@ -69,7 +69,7 @@ void BmpReader::readHeader() {
   if (width < 1 || height == 0) throw CodecError("it has no pixels");
   top_down_ = height < 0;
   checkImageSize(std::uint64_t(width), std::uint64_t(top_down_ ? -height : height), bytes_.size());
-  width_ = int(width);
+  width_ = width;
   height_ = int(top_down_ ? -height : height);
   if (bits_ == 1 || bits_ == 4 || bits_ == 8) {
     palette_ = bmp_file_header + header;

@@ -120,6 +120,7 @@ void addPart(const aiMesh& part, const aiMaterial& material, FileMesh& mesh) {
 
 FileMesh readAssimpMesh(const MeshFiles& files) {
   const bool gltf = files.ending() != ".dae";
+  const std::string content = files.readMesh();  // says better than assimp why it cannot be read
   Assimp::Importer importer;
   importer.SetIOHandler(std::make_unique<AssimpFiles>(files).release());         // the importer deletes it
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);  // the file's own axes are the model's
@@ -137,7 +138,7 @@ FileMesh readAssimpMesh(const MeshFiles& files) {
     const aiMesh& part = *scene->mMeshes[i];
     addPart(part, *scene->mMaterials[part.mMaterialIndex], mesh);
   }
-  mesh.in_metres = gltf || statesUnit(files.readMesh());
+  mesh.in_metres = gltf || statesUnit(content);
   return mesh;
 }
 

@@ -154,12 +154,17 @@ void ObjReader::readLibraries() {
                                "); put the file beside the mesh");
     }
   }
+  std::vector<bool> shown(mesh_.materials.size(), false);
+  for (const FileFace& face : mesh_.faces) {
+    if (face.material >= 0) shown[std::size_t(face.material)] = true;
+  }
   std::string unknown;
-  for (FileMaterial& material : mesh_.materials) {
+  for (std::size_t i = 0; i < mesh_.materials.size(); ++i) {
+    FileMaterial& material = mesh_.materials[i];
     const auto found = materials.find(material.name);
     if (found != materials.end()) {
       material = found->second;
-    } else if (unknown.size() < 200) {
+    } else if (shown[i] && unknown.size() < 200) {
       unknown += (unknown.empty() ? "'" : ", '") + material.name + "'";
     }
   }

@@ -56,7 +56,7 @@ TEST_F(MeshFile, CutOffPlyHeadersAreRefused) {
   const std::string header = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n";
   EXPECT_THAT(refusal(write("a.ply", header)), HasSubstr("has no line end_header"));
   EXPECT_THAT(refusal(write("b.ply", header + "prope2\n")), HasSubstr("has no line end_header"));
-  EXPECT_THAT(refusal(write("c.ply", header + "end_header\v0 0 1\n")), HasSubstr("c.ply': its vertices have no x, y"));
+  EXPECT_THAT(refusal(write("c.ply", header + "end_header\v0 0 1\n")), HasSubstr("c.ply': it is truncated"));
   EXPECT_THAT(refusal(write("d.ply", header + "properWty float y\nend_header\n")), HasSubstr("d.ply': "));
   EXPECT_THAT(refusal(write("e.ply", "plx" + header)), HasSubstr("it is no PLY file"));
 }
