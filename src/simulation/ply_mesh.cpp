@@ -27,18 +27,22 @@ public:
     if (!plyComplete(places_)) return;
     const PointField::Type type = element.properties[places_[0]].type;
     whole_ = type != PointField::float32 && type != PointField::float64;
+    is_char_ = type == PointField::int8;
     there_ = true;
   }
   bool there() const { return there_; }
   void add(const PlyInstance& instance) {
     if (!there_) return;
-    for (const std::size_t place : places_) channels_.push_back(float(instance.values[place]));
+    for (const std::size_t place : places_) {
+      const double value = instance.values[place];
+      channels_.push_back(float(is_char_ && value < 0 ? value + 256 : value));  // `char` in files that mean bytes
+    }
   }
   std::vector<Rgb> colors() const { return colorsOf(channels_, whole_); }
 
 private:
   Places places_{};
-  bool there_ = false, whole_ = false;
+  bool there_ = false, whole_ = false, is_char_ = false;
   std::vector<float> channels_;
 };
 
