@@ -35,9 +35,10 @@ FileMesh readFileMesh(const MeshFiles& files) {
 std::string sizeText(const Eigen::Vector3f& sizes, double scale) {
   std::string text;
   for (int axis = 0; axis < 3; ++axis) {
-    const double rounded = std::round(double(sizes[axis]) * scale * 10) / 10;
+    const double size = double(sizes[axis]) * scale,
+                 rounded = size < 10 ? std::round(10 * size) / 10 : std::round(size);
     std::string digits = std::to_string(rounded);
-    digits.erase(digits.find('.') + (rounded < 10 && std::floor(rounded) != rounded ? 2 : 0));
+    digits.erase(digits.find('.') + (std::floor(rounded) != rounded ? 2 : 0));
     text += (axis == 0 ? "" : " x ") + digits;
   }
   return text;
