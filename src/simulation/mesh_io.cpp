@@ -7,6 +7,7 @@
 #include <sks_detector/error.hpp>
 #include <sks_detector/simulation/mesh.hpp>
 
+#include "core/settings/value_text.hpp"
 #include "simulation/mesh_assembly.hpp"
 
 namespace sks {
@@ -37,9 +38,7 @@ std::string sizeText(const Eigen::Vector3f& sizes, double scale) {
   for (int axis = 0; axis < 3; ++axis) {
     const double size = double(sizes[axis]) * scale,
                  rounded = size < 10 ? std::round(10 * size) / 10 : std::round(size);
-    std::string digits = std::to_string(rounded);
-    digits.erase(digits.find('.') + (std::floor(rounded) != rounded ? 2 : 0));
-    text += (axis == 0 ? "" : " x ") + digits;
+    text += (axis == 0 ? "" : " x ") + toText(rounded);
   }
   return text;
 }

@@ -6,6 +6,7 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/value_text.hpp"
 #include "simulation/renderer.hpp"
 #include "simulation/shapes.hpp"
 
@@ -55,7 +56,7 @@ std::vector<TrainingSample> meshSamples(const std::string& object, const std::st
   constexpr double farthest = 100;
   if (!(training.distance > 0 && training.distance <= farthest)) {
     throw Error(ErrorCode::bad_usage,
-                "the distance of the views, " + std::to_string(training.distance) + " m, must be in (0, 100] m");
+                "the distance of the views, " + toText(training.distance) + " m, must be in (0, 100] m");
   }
   CameraModel camera = training.camera;
   if (!training.noise) camera.noise = CameraNoise::none();
