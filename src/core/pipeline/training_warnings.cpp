@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <sks_detector/trainer.hpp>
 
@@ -10,7 +11,7 @@ namespace sks {
 namespace {
 
 // Extents of what is still found by and large, in edges of a cell of keypoints.grid_size.
-constexpr double smallest_cells = 2, thinnest_cells = 1;
+constexpr double smallest_cells = 2.5, thinnest_cells = 1;
 constexpr double flattest = 0.012;  // [m] what rises less above a plane counts as a part of it
 
 /// Extents of an object in all its views, the largest first [m].
@@ -21,6 +22,13 @@ Eigen::Vector3d extentsOf(const Codebook& codebook, std::uint32_t object) {
   }
   std::sort(extents.data(), extents.data() + 3, std::greater<>());
   return extents;
+}
+
+/// Whether its boxes are those of the whole object; a view of its front alone looks flat.
+bool isWhole(const Codebook& codebook, std::uint32_t object) {
+  return std::all_of(codebook.views.begin(), codebook.views.end(), [&](const TrainingView& view) {
+    return view.object != object || view.kind == ViewKind::model || !view.frame.empty();
+  });
 }
 
 std::string inMillimetres(const Eigen::Vector3d& extents) {
@@ -51,7 +59,7 @@ std::vector<std::string> trainingWarnings(const Codebook& codebook) {
                          ", descriptor.radius=" + setting(factor * settings.descriptor.radius) +
                          " and surface.normal_radius=" + setting(factor * settings.surface.normal_radius) +
                          ", or check its unit");
-    } else if (extents[2] < flattest && settings.keypoints.skip_planes) {
+    } else if (extents[2] < flattest && settings.keypoints.skip_planes && isWhole(codebook, i)) {
       warnings.push_back(
           "object '" + codebook.objects[i] + "' is " + inMillimetres(extents) +
           " large, so flat that it counts as a part of what it lies on; set keypoints.skip_planes=false");
