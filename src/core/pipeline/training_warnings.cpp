@@ -10,8 +10,9 @@
 namespace sks {
 namespace {
 
-// Extents of what is still found by and large, in edges of a cell of keypoints.grid_size.
-constexpr double smallest_cells = 2.5, thinnest_cells = 1;
+// Largest and second extent of an object in edges of a cell of keypoints.grid_size: below the first it is hardly found,
+// at the second it is (measured with coloured objects of 30 and 50 mm).
+constexpr double fewest_cells[] = {3, 1}, wanted_cells[] = {5, 1.5};
 constexpr double flattest = 0.012;  // [m] what rises less above a plane counts as a part of it
 
 /// Extents of an object in all its views, the largest first [m].
@@ -51,11 +52,11 @@ std::vector<std::string> trainingWarnings(const Codebook& codebook) {
   std::vector<std::string> warnings;
   for (std::uint32_t i = 0; i < codebook.objects.size(); ++i) {
     const Eigen::Vector3d extents = extentsOf(codebook, i);
-    const double cells = std::min(extents[0] / smallest_cells, extents[1] / thinnest_cells);
-    if (cells < settings.keypoints.grid_size) {
-      const double factor = cells / settings.keypoints.grid_size;
+    const double grid = settings.keypoints.grid_size;
+    if (std::min(extents[0] / fewest_cells[0], extents[1] / fewest_cells[1]) < grid) {
+      const double finer = std::min(extents[0] / wanted_cells[0], extents[1] / wanted_cells[1]), factor = finer / grid;
       warnings.push_back("object '" + codebook.objects[i] + "' is " + inMillimetres(extents) +
-                         " large, which is too small for these settings; set keypoints.grid_size=" + setting(cells) +
+                         " large, which is too small for these settings; set keypoints.grid_size=" + setting(finer) +
                          ", descriptor.radius=" + setting(factor * settings.descriptor.radius) +
                          " and surface.normal_radius=" + setting(factor * settings.surface.normal_radius) +
                          ", or check its unit");
