@@ -15,21 +15,20 @@ namespace {
 constexpr double fewest_cells[] = {3, 1}, wanted_cells[] = {5, 1.5};
 constexpr double flattest = 0.012;  // [m] what rises less above a plane counts as a part of it
 
-/// Extents of an object in all its views, the largest first [m].
-Eigen::Vector3d extentsOf(const Codebook& codebook, std::uint32_t object) {
-  Eigen::Vector3d extents = Eigen::Vector3d::Zero();
-  for (const TrainingView& view : codebook.views) {
-    if (view.object == object) extents = extents.cwiseMax(view.extent().cast<double>());
-  }
-  std::sort(extents.data(), extents.data() + 3, std::greater<>());
-  return extents;
-}
+struct ObjectSize {
+  Eigen::Vector3d extents = Eigen::Vector3d::Zero();  // in all its views, the largest first [m]
+  bool whole = true;  // its boxes are those of the whole object; a view of its front alone looks flat
+};
 
-/// Whether its boxes are those of the whole object; a view of its front alone looks flat.
-bool isWhole(const Codebook& codebook, std::uint32_t object) {
-  return std::all_of(codebook.views.begin(), codebook.views.end(), [&](const TrainingView& view) {
-    return view.object != object || view.kind == ViewKind::model || !view.frame.empty();
-  });
+std::vector<ObjectSize> sizesOf(const Codebook& codebook) {
+  std::vector<ObjectSize> sizes(codebook.objects.size());
+  for (const TrainingView& view : codebook.views) {
+    ObjectSize& size = sizes[view.object];
+    size.extents = size.extents.cwiseMax(view.extent().cast<double>());
+    size.whole = size.whole && (view.kind == ViewKind::model || !view.frame.empty());
+  }
+  for (ObjectSize& size : sizes) std::sort(size.extents.data(), size.extents.data() + 3, std::greater<>());
+  return sizes;
 }
 
 std::string inMillimetres(const Eigen::Vector3d& extents) {
@@ -49,9 +48,10 @@ std::string setting(double metres) {
 
 std::vector<std::string> trainingWarnings(const Codebook& codebook) {
   const Settings& settings = codebook.settings;
+  const std::vector<ObjectSize> sizes = sizesOf(codebook);
   std::vector<std::string> warnings;
-  for (std::uint32_t i = 0; i < codebook.objects.size(); ++i) {
-    const Eigen::Vector3d extents = extentsOf(codebook, i);
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const Eigen::Vector3d& extents = sizes[i].extents;
     const double grid = settings.keypoints.grid_size;
     if (std::min(extents[0] / fewest_cells[0], extents[1] / fewest_cells[1]) < grid) {
       const double finer = std::min(extents[0] / wanted_cells[0], extents[1] / wanted_cells[1]), factor = finer / grid;
@@ -60,7 +60,7 @@ std::vector<std::string> trainingWarnings(const Codebook& codebook) {
                          ", descriptor.radius=" + setting(factor * settings.descriptor.radius) +
                          " and surface.normal_radius=" + setting(factor * settings.surface.normal_radius) +
                          ", or check its unit");
-    } else if (extents[2] < flattest && settings.keypoints.skip_planes && isWhole(codebook, i)) {
+    } else if (extents[2] < flattest && settings.keypoints.skip_planes && sizes[i].whole) {
       warnings.push_back(
           "object '" + codebook.objects[i] + "' is " + inMillimetres(extents) +
           " large, so flat that it counts as a part of what it lies on; set keypoints.skip_planes=false");
