@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Mesh files, as loadMesh() takes them; the first byte of an input picks the format. The parsers are assimp's.
+// Mesh files, as loadMesh() takes them; the first byte of an input picks the format.
 #include <array>
 #include <string>
 

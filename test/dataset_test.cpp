@@ -119,9 +119,13 @@ TEST_F(DataSetFile, UnknownKeysAreRefusedWithTheNearest) {
   EXPECT_THAT(refusal(head + "name: again\n"), HasSubstr(":4: key 'name' stands twice"));
 }
 
-TEST_F(DataSetFile, UnitsOtherThanMetresAndMillimetresAreRefused) {
-  EXPECT_EQ(refusal("name: toys\nunits: cm\n"),
-            file() + ":2: 'units' of the data set is 'cm': use m or mm, the unit of every length");
+TEST_F(DataSetFile, UnknownUnitsAndImpossibleLengthsAreRefused) {
+  for (const std::string unit : {"ell", "Mm", "-1", "0", "1e30", "nan"}) {
+    EXPECT_EQ(refusal("name: toys\nunits: " + unit + "\n"),
+              file() + ":2: 'units' of the data set is '" + unit +
+                  "': use m, cm, mm, inch or a number of metres, the unit of every length");
+  }
+  EXPECT_THAT(refusal("name: toys\nunits: m\nmax_distance: 1e30\nscenes: [1]\n"), HasSubstr("must be at most 100 m"));
   EXPECT_THAT(refusal("name: toys\n"), HasSubstr("the data set needs the key 'units'"));
 }
 

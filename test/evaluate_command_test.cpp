@@ -260,8 +260,8 @@ TEST_F(EvaluateCommand, RefusesDataSetsThatAreWrong) {
               HasSubstr("toys.yaml:6: unknown key 'scene' in the data set; did you mean 'scenes'?"));
   EXPECT_THAT(refusal(head_ + "training:\n  - {object: bumps, cloud: gone.pcd, kind: view}\n" + scene_),
               AllOf(HasSubstr("toys.yaml:5: cloud '"), HasSubstr("gone.pcd' does not exist")));
-  EXPECT_THAT(refusal("name: toys\nunits: inch\nmax_distance: 2\n" + training_ + scene_),
-              HasSubstr("toys.yaml:2: 'units' of the data set is 'inch': use m or mm"));
+  EXPECT_THAT(refusal("name: toys\nunits: ell\nmax_distance: 2\n" + training_ + scene_),
+              HasSubstr("toys.yaml:2: 'units' of the data set is 'ell': use m, cm, mm, inch or"));
   EXPECT_THAT(refusal(head_ + training_), HasSubstr("has no scenes to evaluate"));
 }
 

@@ -92,8 +92,8 @@ TEST_F(ImageFile, GrayIsColourAndAlphaIsDropped) {
 TEST_F(ImageFile, RefusesWhatIsNoPicture) {
   EXPECT_THAT(refusal(folder_.path("gone.png")), HasSubstr("gone.png': No such file"));
   EXPECT_THAT(refusal(folder_.path()), HasSubstr("it is a folder"));
-  EXPECT_THAT(refusal(write("empty.png", "")), HasSubstr("neither a PNG nor a JPEG file"));
-  EXPECT_THAT(refusal(write("text.png", "hello")), HasSubstr("text.png': it is neither a PNG nor a JPEG file"));
+  EXPECT_THAT(refusal(write("empty.png", "")), HasSubstr("it is no PNG, JPEG, BMP or TGA file"));
+  EXPECT_THAT(refusal(write("text.png", "hello")), HasSubstr("text.png': it is no PNG, JPEG, BMP or TGA file"));
   EXPECT_THAT(test::errorOf(ErrorCode::bad_file, [&] { readDepthImage(write("d.png", encodeJpeg(gradient(2, 2)))); }),
               HasSubstr("it is no PNG file"));
   EXPECT_THAT(test::errorOf(ErrorCode::bad_file, [&] { readDepthImage(write("c.png", encodePng(gradient(2, 2)))); }),

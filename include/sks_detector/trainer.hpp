@@ -35,8 +35,13 @@ struct TrainingSample {
 /// @param stages in place of this package's own; the verifier is not used
 /// @return what Detector and writeCodebook() take
 /// @throws Error(bad_usage) for no samples, invalid settings or a descriptor stage whose name cannot be stored;
-///         Error(bad_data) naming the sample whose cloud is unusable or yields no codeword; Error(cancelled)
+///         Error(bad_data) naming the sample whose cloud is unusable, less than 1 mm large or yields no codeword;
+///         Error(cancelled)
 Codebook train(const std::vector<TrainingSample>& samples, const Settings& settings, const std::string& name,
                const Progress& progress = {}, const Stages& stages = {});
+
+/// What is odd about a trained codebook but can be used: objects that are smaller, flatter or thinner than what its
+/// settings can find, each with the settings that would. Empty if there is nothing.
+std::vector<std::string> trainingWarnings(const Codebook& codebook);
 
 }  // namespace sks

@@ -67,8 +67,9 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(path) {
   const std::string folder = folderOf(path);
   if (!fs::is_directory(folder, ignored)) fail("the folder " + folder + " does not exist; create it first");
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
-    file_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    file_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe that nobody reads fails at once
     if (file_ < 0) fail(systemReason());
+    ::fcntl(file_, F_SETFL, 0);
     return;
   }
   if (fs::is_symlink(path, ignored)) target_ = fs::weakly_canonical(path).string();

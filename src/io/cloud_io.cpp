@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sks_detector/cloud_io.hpp>
 
-#include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <system_error>
 #include <vector>
 
 #include <sks_detector/error.hpp>
 
 #include "core/settings/value_text.hpp"
 #include "io/atomic_file.hpp"
+#include "io/file_content.hpp"
 #include "io/header_lines.hpp"
+#include "io/memory_stream.hpp"
 #include "io/pcd_file.hpp"
 #include "io/ply_file.hpp"
 
@@ -28,7 +27,7 @@ enum class Format { pcd, ply, foreign };
 /// By the first line, whatever the file is called.
 Format formatOf(std::istream& file) {
   std::vector<std::string> words;
-  const bool text = readHeaderLine(file, words) && !words.empty();
+  const bool text = readHeaderLine(file, words, headerLineEnd(file)) && !words.empty();
   file.clear();
   file.seekg(0);
   if (!text) return Format::foreign;
@@ -36,7 +35,7 @@ Format formatOf(std::istream& file) {
   return words[0][0] == '#' || words[0] == "VERSION" || words[0] == "FIELDS" ? Format::pcd : Format::foreign;
 }
 
-Cloud read(std::ifstream& file, std::uint64_t size, double scale) {
+Cloud read(std::istream& file, std::uint64_t size, double scale) {
   switch (formatOf(file)) {
     case Format::pcd:
       return readPcd(file, size, scale);
@@ -50,15 +49,12 @@ Cloud read(std::ifstream& file, std::uint64_t size, double scale) {
 }  // namespace
 
 Cloud readCloud(const std::string& path, double scale) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) fail(path, "it is a folder; give the name of a PCD or PLY file");
-  const std::uint64_t size = std::filesystem::file_size(path, error);
-  if (error) fail(path, error.message());
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail(path, std::generic_category().message(errno));
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) fail(path, "it is a folder; give the name of a PCD or PLY file");
   try {
-    Cloud cloud = read(file, size, scale);
+    const FileContent content(path);
+    MemoryStream file(content.data(), content.size());
+    Cloud cloud = read(file, content.size(), scale);
     if (!cloud.sensor_origin.allFinite()) throw Error(ErrorCode::bad_data, "its sensor origin is not finite");
     return cloud;
   } catch (const Error& reason) {

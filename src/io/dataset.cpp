@@ -12,6 +12,7 @@
 #include <sks_detector/error.hpp>
 
 #include "io/file.hpp"
+#include "io/length_unit.hpp"
 #include "io/yaml_map.hpp"
 #include "io/yaml_text.hpp"
 
@@ -25,7 +26,8 @@ bool isBuiltin(const std::string& path) {
   return path.rfind("builtin:", 0) == 0;
 }
 
-constexpr double rigid_tolerance = 1e-3;  // of each entry of R^T R - I and of the last row
+constexpr double largest_max_distance = 100, farthest_position = 1e4;  // [m]
+constexpr double rigid_tolerance = 1e-3;                               // of each entry of R^T R - I and of the last row
 
 /// Reads the parts of one file; keeps what all of them need.
 class DataSetReader {
@@ -39,6 +41,8 @@ public:
 
 private:
   void readUnits(const YamlMap& map);
+  static double scaleOf(const YamlMap& map);
+  Eigen::Vector3d positionOf(const YamlMap& map, const std::string& key, const Eigen::Vector3d& position) const;
   void readTraining(const YamlMap& map);
   void addSymmetries();
   void readScene(const YamlMap& map);
@@ -69,7 +73,7 @@ DataSet DataSetReader::read() {
   data_set_.name = map.text("name");
   readUnits(map);
   for (const YAML::Node& item : map.list("training")) {
-    readTraining(mapOf(item, "a training cloud", {"object", "cloud", "kind", "symmetry"}));
+    readTraining(mapOf(item, "a training cloud", {"object", "cloud", "kind", "symmetry", "units"}));
   }
   for (const YAML::Node& item : map.list("scenes")) {
     readScene(mapOf(item, "a scene", {"name", "cloud", "objects", "ignore"}));
@@ -87,12 +91,29 @@ DataSet DataSetReader::read() {
 
 void DataSetReader::readUnits(const YamlMap& map) {
   const std::string units = map.text("units");
-  if (units != "m" && units != "mm") map.fail("units", "is '" + units + "': use m or mm, the unit of every length");
-  data_set_.scale = units == "mm" ? 0.001 : 1.0;
+  data_set_.scale = scaleOf(map);
   if (map.list("scenes").empty() && !map.has("max_distance")) return;  // only scenes are scored with it
   const double distance = map.number("max_distance");
   if (distance <= 0) map.fail("max_distance", "must be greater than 0 " + units);
   data_set_.max_distance = distance * data_set_.scale;
+  if (data_set_.max_distance > largest_max_distance) map.fail("max_distance", "must be at most 100 m");
+}
+
+/// Metres in the unit that a map states.
+double DataSetReader::scaleOf(const YamlMap& map) {
+  const std::string units = map.text("units");
+  const std::optional<double> scale = metresIn(units);
+  if (!scale) map.fail("units", "is '" + units + "': use " + known_units + ", the unit of every length");
+  return *scale;
+}
+
+/// A position of the scene in metres.
+Eigen::Vector3d DataSetReader::positionOf(const YamlMap& map, const std::string& key,
+                                          const Eigen::Vector3d& position) const {
+  if (!((data_set_.scale * position).norm() <= farthest_position)) {
+    map.fail(key, "lies more than 10 km away: is `units` right?");
+  }
+  return data_set_.scale * position;
 }
 
 bool DataSetReader::isMissing(const YamlMap& map) const {
@@ -104,7 +125,10 @@ std::string DataSetReader::cloudPath(const YamlMap& map) const {
   if (isBuiltin(map.text("cloud"))) return map.text("cloud");
   const std::string path = resolve(map.text("cloud"));
   if (!isMissing(map)) return path;
-  throw Error(ErrorCode::bad_file, file_ + ":" + std::to_string(map.at("cloud").Mark().line + 1) + ": cloud '" + path +
+  std::error_code ignored;
+  const std::string place = file_ + ":" + std::to_string(map.at("cloud").Mark().line + 1) + ": cloud '" + path;
+  if (fs::exists(path, ignored)) throw Error(ErrorCode::bad_file, place + "' is no regular file");
+  throw Error(ErrorCode::bad_file, place +
                                        "' does not exist; paths are relative to the data set file: correct the path or "
                                        "put the cloud there");
 }
@@ -123,6 +147,7 @@ void DataSetReader::readTraining(const YamlMap& map) {
   entry.mesh = kind == "mesh";
   if (isBuiltin(entry.path) && !entry.mesh) map.fail("kind", "must be mesh for the built-in object " + entry.path);
   if (map.has("symmetry")) entry.symmetry = readSymmetry(map);
+  if (map.has("units")) entry.scale = scaleOf(map);
   if (left_out) {
     warn(map.at("cloud"), "cloud '" + entry.path + "' of object '" + entry.object + "' does not exist: it is left out");
   }
@@ -184,7 +209,7 @@ GroundTruth DataSetReader::readGroundTruth(const YamlMap& map) {
   GroundTruth truth;
   truth.object = map.text("object");
   const std::vector<double> position = map.numbers("position", 3);
-  truth.position = data_set_.scale * Eigen::Vector3d(position[0], position[1], position[2]);
+  truth.position = positionOf(map, "position", Eigen::Vector3d(position[0], position[1], position[2]));
   if (map.has("reference")) truth.reference = fs::path(map.text("reference")).lexically_normal().string();
   if (map.has("pose")) truth.T_scene_reference = readPose(map);
   if (map.has("visibility")) {
@@ -220,7 +245,7 @@ Eigen::Isometry3d DataSetReader::readPose(const YamlMap& map) const {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(rotation, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() = svd.matrixU() * svd.matrixV().transpose();
-  pose.translation() = data_set_.scale * matrix.topRightCorner<3, 1>();
+  pose.translation() = positionOf(map, "pose", matrix.topRightCorner<3, 1>());
   return pose;
 }
 
@@ -233,13 +258,14 @@ DataSet loadDataSet(const std::string& path, MissingClouds missing) {
 std::vector<TrainingSample> trainingSamples(const DataSet& data_set, const MeshSampler& sampler) {
   std::vector<TrainingSample> samples;
   for (const TrainingEntry& entry : data_set.training) {
+    const double scale = entry.scale.value_or(data_set.scale);
     if (entry.mesh) {
       if (!sampler) throw Error(ErrorCode::bad_usage, entry.source + ": this program cannot train from meshes");
-      const std::vector<TrainingSample> views = sampler(entry, data_set.scale);
+      const std::vector<TrainingSample> views = sampler(entry, scale);
       samples.insert(samples.end(), views.begin(), views.end());
       continue;
     }
-    const auto load = [path = entry.path, scale = data_set.scale] { return readCloud(path, scale); };
+    const auto load = [path = entry.path, scale] { return readCloud(path, scale); };
     samples.push_back({entry.object, entry.source, entry.kind, load, {}, {}});
   }
   return samples;

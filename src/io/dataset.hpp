@@ -23,6 +23,7 @@ struct TrainingEntry {
   ViewKind kind = ViewKind::view;
   bool mesh = false;                 ///< the file is a mesh, or `builtin:` and a name: views of it are rendered
   std::optional<Symmetry> symmetry;  ///< as declared
+  std::optional<double> scale;       ///< metres per unit of this file, where it differs; 0 of a mesh: recognised
 };
 
 /// One true instance of an object in a scene.
@@ -68,13 +69,13 @@ enum class MissingClouds {
   left_out  ///< with a warning that names each
 };
 
-/// Reads a data set file strictly: unknown and repeated keys, units other than m and mm, poses that are not rigid,
+/// Reads a data set file strictly: unknown and repeated keys, unknown units, poses that are not rigid,
 /// scenes of the same name and clouds that do not exist are refused before any work is done.
 /// @throws Error(bad_file) if the file or a cloud is missing or the file is no YAML; Error(bad_data) naming file, line,
 ///         key and remedy
 DataSet loadDataSet(const std::string& path, MissingClouds missing = MissingClouds::refused);
 
-/// Turns a mesh into training views. @param scale metres per unit of the mesh
+/// Turns a mesh into training views. @param scale metres per unit of the mesh; 0: to be recognised
 using MeshSampler = std::function<std::vector<TrainingSample>(const TrainingEntry& entry, double scale)>;
 
 /// The training clouds for train(), each read when its turn comes.

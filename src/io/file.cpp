@@ -2,15 +2,14 @@
 #include "io/file.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <system_error>
 #include <vector>
 
 #include <sks_detector/error.hpp>
 
 #include "io/atomic_file.hpp"
+#include "io/regular_file.hpp"
 
 namespace sks {
 
@@ -39,18 +38,18 @@ std::string readTextFile(const std::string& path, std::size_t max_bytes) {
   const auto fail = [&](const std::string& reason) {
     throw Error(ErrorCode::bad_file, "cannot read '" + path + "': " + reason);
   };
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) fail("it is a folder; give the name of a file");
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) fail(std::generic_category().message(errno));
   std::string content;
-  std::vector<char> block(1 << 16);  // grows with what is there, not with what a file says of its size
-  while (in.read(block.data(), std::streamsize(block.size())) || in.gcount() > 0) {
-    content.append(block.data(), std::size_t(in.gcount()));
-    if (content.size() > max_bytes) fail("it is larger than " + std::to_string(max_bytes) + " bytes");
+  try {
+    const RegularFile file(path);
+    std::vector<char> block(1 << 16);  // grows with what is there, not with what a file says of its size
+    while (const std::size_t count = file.read(block.data(), block.size(), content.size())) {
+      content.append(block.data(), count);
+      if (content.size() > max_bytes) break;
+    }
+  } catch (const Error& error) {
+    fail(error.what());
   }
-  if (in.bad()) fail(std::generic_category().message(errno));
+  if (content.size() > max_bytes) fail("it is larger than " + std::to_string(max_bytes) + " bytes");
   return content;
 }
 

@@ -16,7 +16,8 @@ void makeFolder(const std::string& path);
 /// Throws now what writing to `path` would throw later: no such folder, no permission. @throws Error(bad_file)
 void checkWritable(const std::string& path);
 
-/// Reads a whole text file. @throws Error(bad_file) naming the path and the reason, also where it exceeds `max_bytes`
+/// Reads a whole file, regular ones only. @throws Error(bad_file) naming the path and the reason, also where it exceeds
+/// `max_bytes`
 std::string readTextFile(const std::string& path, std::size_t max_bytes = 64u << 20);
 
 }  // namespace sks

@@ -7,53 +7,23 @@
 #include <system_error>
 #include <vector>
 
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <sks_detector/error.hpp>
+
+#include "io/regular_file.hpp"
 
 namespace sks {
 namespace {
 
-/// Closes a file descriptor at the end of its scope.
-struct Descriptor {
-  explicit Descriptor(const std::string& path) : number(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
-  ~Descriptor() {
-    if (number >= 0) ::close(number);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-
-  const int number;
-};
-
-[[noreturn]] void failBySystem() {
-  throw Error(ErrorCode::bad_file, std::generic_category().message(errno));
-}
-
 constexpr std::size_t block_size = 1 << 20;  // [bytes]
 
-/// As many bytes from the offset as there are, up to `size`.
-std::size_t readSome(int file, std::uint8_t* to, std::size_t size, std::size_t offset) {
-  std::size_t done = 0;
-  while (done < size) {
-    const ssize_t count = ::pread(file, to + done, size - done, off_t(offset + done));
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) failBySystem();
-    if (count == 0) break;
-    done += std::size_t(count);
-  }
-  return done;
-}
-
 /// Copies a file to memory that is zero. Fewer bytes than `size` where it was truncated meanwhile.
-std::size_t copy(int file, std::uint8_t* to, std::size_t size) {
+std::size_t copy(const RegularFile& file, std::uint8_t* to, std::size_t size) {
   std::vector<std::uint8_t> block(std::min(size, block_size));
   std::size_t done = 0;
   while (done < size) {
-    const std::size_t count = readSome(file, block.data(), std::min(block.size(), size - done), done);
+    const std::size_t count = file.read(block.data(), std::min(block.size(), size - done), done);
     if (count == 0) break;
     const bool zero =
         std::all_of(block.begin(), block.begin() + std::ptrdiff_t(count), [](auto byte) { return byte == 0; });
@@ -63,9 +33,9 @@ std::size_t copy(int file, std::uint8_t* to, std::size_t size) {
   return done;
 }
 
-bool beginsWith(int file, const std::string& magic) {
+bool beginsWith(const RegularFile& file, const std::string& magic) {
   std::vector<std::uint8_t> begin(magic.size());
-  return readSome(file, begin.data(), begin.size(), 0) == magic.size() &&
+  return file.read(begin.data(), begin.size(), 0) == magic.size() &&
          std::equal(magic.begin(), magic.end(), begin.begin(),
                     [](char a, std::uint8_t b) { return std::uint8_t(a) == b; });
 }
@@ -73,20 +43,16 @@ bool beginsWith(int file, const std::string& magic) {
 }  // namespace
 
 FileContent::FileContent(const std::string& path, const std::string& magic) {
-  const Descriptor file(path);
-  struct stat status {};
-  if (file.number < 0 || ::fstat(file.number, &status) != 0) failBySystem();
-  if (S_ISDIR(status.st_mode)) throw Error(ErrorCode::bad_file, "it is a folder; give the name of a file");
-  if (!S_ISREG(status.st_mode)) throw Error(ErrorCode::bad_file, "it is no regular file");
-  auto size = std::size_t(status.st_size);
-  if (!magic.empty() && !beginsWith(file.number, magic)) size = std::min(size, magic.size());
+  const RegularFile file(path);
+  std::size_t size = file.size();
+  if (!magic.empty() && !beginsWith(file, magic)) size = std::min(size, magic.size());
   if (size == 0) return;  // memory of no size cannot be reserved
   void* const data = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (data == MAP_FAILED) failBySystem();
+  if (data == MAP_FAILED) throw Error(ErrorCode::bad_file, std::generic_category().message(errno));
   data_ = static_cast<std::uint8_t*>(data);
   reserved_ = size;
   try {
-    size_ = copy(file.number, data_, size);
+    size_ = copy(file, data_, size);
   } catch (...) {
     ::munmap(data_, reserved_);
     throw;

@@ -14,10 +14,21 @@ constexpr std::streamoff longest_header = 1 << 20;
 
 }  // namespace
 
-bool readHeaderLine(std::istream& file, std::vector<std::string>& words) {
+char headerLineEnd(std::istream& file) {
+  const auto start = file.tellg();
+  char c = 0;
+  for (std::size_t i = 0; i < longest_line && file.get(c) && c != '\n' && c != '\r'; ++i) {
+  }
+  const bool alone = c == '\r' && file.peek() != '\n';
+  file.clear();
+  file.seekg(start);
+  return alone ? '\r' : '\n';
+}
+
+bool readHeaderLine(std::istream& file, std::vector<std::string>& words, char line_end) {
   words.clear();
   std::string line;
-  for (char c = 0; line.size() < longest_line && file.get(c) && c != '\n';) line += c;
+  for (char c = 0; line.size() < longest_line && file.get(c) && c != line_end;) line += c;
   if (!file || line.size() == longest_line || file.tellg() > longest_header) return false;
   std::istringstream split(line);
   for (std::string word; split >> word;) words.push_back(word);

@@ -11,8 +11,12 @@
 
 namespace sks {
 
+/// What ends the lines of a file, by its first line: a line feed, perhaps after a carriage return, or a carriage return
+/// alone. Stays at the file's place.
+char headerLineEnd(std::istream& file);
+
 /// Splits the next line at blanks; false at the file's end or where there is too much text for a header.
-bool readHeaderLine(std::istream& file, std::vector<std::string>& words);
+bool readHeaderLine(std::istream& file, std::vector<std::string>& words, char line_end = '\n');
 
 /// A whole number of a header. @throws Error(bad_data) naming `what`
 std::uint64_t headerNumber(const std::string& text, const std::string& what);

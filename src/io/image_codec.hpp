@@ -24,5 +24,11 @@ ColorImage decodeColorPng(const std::string& bytes);
 DepthImage decodeDepthPng(const std::string& bytes);
 /// @throws CodecError
 ColorImage decodeJpeg(const std::string& bytes);
+/// @throws CodecError, also where it is compressed
+ColorImage decodeBmp(const std::string& bytes);
+/// Whether it can be a TGA file, which nothing but the sense of its header tells.
+bool isTga(const std::string& bytes);
+/// @throws CodecError
+ColorImage decodeTga(const std::string& bytes);
 
 }  // namespace sks

@@ -9,18 +9,26 @@
 namespace sks {
 namespace {
 
-constexpr std::size_t max_file_bytes = std::size_t(1) << 30;
+constexpr std::size_t max_file_bytes = std::size_t(256) << 20;
 
 bool startsWith(const std::string& bytes, const std::string& signature) {
   return bytes.compare(0, signature.size(), signature) == 0;
 }
 
-/// What `decode` makes of a file's bytes.
-template <typename Decode>
-auto readWith(const std::string& path, Decode decode) {
+ColorImage decodeAny(const std::string& bytes) {
+  if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return decodeColorPng(bytes);
+  if (startsWith(bytes, "\xff\xd8\xff")) return decodeJpeg(bytes);
+  if (startsWith(bytes, "BM")) return decodeBmp(bytes);
+  if (isTga(bytes)) return decodeTga(bytes);
+  throw CodecError("it is no PNG, JPEG, BMP or TGA file; save it as PNG");
+}
+
+/// What `decoder` makes of a file's bytes.
+template <typename Decoder>
+auto readWith(const std::string& path, Decoder decoder) {
   const std::string bytes = readTextFile(path, max_file_bytes);
   try {
-    return decode(bytes);
+    return decoder(bytes);
   } catch (const CodecError& error) {
     throw Error(ErrorCode::bad_file, "cannot read '" + path + "': " + error.what());
   }
@@ -29,11 +37,15 @@ auto readWith(const std::string& path, Decode decode) {
 }  // namespace
 
 ColorImage readColorImage(const std::string& path) {
-  return readWith(path, [](const std::string& bytes) {
-    if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return decodeColorPng(bytes);
-    if (startsWith(bytes, "\xff\xd8\xff")) return decodeJpeg(bytes);
-    throw CodecError("it is neither a PNG nor a JPEG file");
-  });
+  return readWith(path, decodeAny);
+}
+
+ColorImage decodeColorImage(const std::string& bytes) {
+  try {
+    return decodeAny(bytes);
+  } catch (const CodecError& error) {
+    throw Error(ErrorCode::bad_data, error.what());
+  }
 }
 
 DepthImage readDepthImage(const std::string& path) {

@@ -27,12 +27,16 @@ struct Image {
 using ColorImage = Image<Rgb>;
 using DepthImage = Image<std::uint16_t>;
 
-/// Most pixels of a picture that is read; it would take 768 MB.
-constexpr std::uint64_t max_image_pixels = std::uint64_t(1) << 28;
+/// Most pixels of a picture that is read: 8192 x 8192, which take 200 MB. A file of some kilobytes can hold as many.
+constexpr std::uint64_t max_image_pixels = std::uint64_t(1) << 26;
 
-/// Reads a PNG or JPEG of any kind as 8-bit RGB, without its alpha channel. What it is, its content says.
+/// Reads a PNG or JPEG of any kind, a BMP without compression or a TGA as 8-bit RGB, without its alpha channel. What it
+/// is, its content says.
 /// @throws Error(bad_file) naming the path and what is wrong, also where it has too many pixels
 ColorImage readColorImage(const std::string& path);
+
+/// The same from the bytes of a file. @throws Error(bad_data) saying what is wrong
+ColorImage decodeColorImage(const std::string& bytes);
 
 /// Reads a PNG of one channel with 16 bits. @throws Error(bad_file)
 DepthImage readDepthImage(const std::string& path);

@@ -31,6 +31,7 @@ enum class PlyFormat { ascii, binary_little_endian, binary_big_endian };
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
+  std::vector<std::string> textures;  ///< names of the pictures, of the comments "TextureFile"
 };
 
 /// Reads and checks all lines up to end_header. @throws Error(bad_data)

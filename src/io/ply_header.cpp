@@ -42,13 +42,20 @@ PlyProperty propertyOf(const Words& words) {
   badPlyHeader("has a property without a type or name");
 }
 
+std::string joined(Words::const_iterator word, Words::const_iterator end) {
+  std::string text;
+  for (; word != end; ++word) text += (text.empty() ? "" : " ") + *word;
+  return text;
+}
+
 }  // namespace
 
 PlyHeader readPlyHeader(std::istream& file) {
   PlyHeader header;
   bool has_format = false;
+  const char line_end = headerLineEnd(file);
   for (Words words; words.empty() || words[0] != "end_header";) {
-    if (!readHeaderLine(file, words)) badPlyHeader("has no line end_header");
+    if (!readHeaderLine(file, words, line_end)) badPlyHeader("has no line end_header");
     const std::string keyword = words.empty() ? "" : words[0];
     if (keyword == "format" && words.size() > 1) {
       header.format = formatOf(words[1]);
@@ -59,6 +66,8 @@ PlyHeader readPlyHeader(std::istream& file) {
     } else if (keyword == "property") {
       if (header.elements.empty()) badPlyHeader("has a property before the first element");
       header.elements.back().properties.push_back(propertyOf(words));
+    } else if (keyword == "comment" && words.size() > 2 && words[1] == "TextureFile") {
+      header.textures.push_back(joined(words.begin() + 2, words.end()));
     }
   }
   if (!has_format) badPlyHeader("has no line format");

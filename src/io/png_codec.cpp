@@ -143,7 +143,7 @@ void checkImageSize(std::uint64_t width, std::uint64_t height, std::size_t bytes
   if (width == 0 || height == 0) throw CodecError("it has no pixels");
   if (width * height > max_image_pixels) {
     throw CodecError("it has " + std::to_string(width) + " x " + std::to_string(height) +
-                     " pixels, which is more than can be read");
+                     " pixels, which is more than can be read (8192 x 8192); make it smaller");
   }
   if (width * height > most_pixels_per_byte * bytes) throw CodecError("it is cut off");
 }

@@ -46,13 +46,15 @@ void TrainingServices::work(const Train::Request& request, const sks::Progress& 
   sks::MeshTraining mesh_training;
   mesh_training.threads = settings.threads;
   const auto warn = [](const std::string& warning) { ROS_WARN_STREAM(warning); };
-  const TrainingSet set = gatherTrainingSet(request.dataset, request.captured, context_.captured,
-                                            context_.dataset_directory, sks::meshSampler(mesh_training, warn));
+  const std::string& folder = context_.dataset_directory;
+  const TrainingSet set = gatherTrainingSet(request.dataset, request.captured, context_.captured, folder,
+                                            sks::meshSampler(mesh_training, warn, folder));
   for (const std::string& warning : set.warnings) ROS_WARN_STREAM(warning);
   warnings = set.warnings;
 
   const std::string name = request.name.empty() ? set.name : request.name;
   const auto codebook = std::make_shared<const sks::Codebook>(sks::train(set.samples, settings, name, progress));
+  for (const std::string& warning : sks::trainingWarnings(*codebook)) ROS_WARN_STREAM(warning);
   const std::size_t views = codebook->views.size();
   if (!output.empty()) sks::writeCodebook(output, *codebook);
   sks::report(progress, {"sorting the codewords", "", views, views});

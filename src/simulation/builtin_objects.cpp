@@ -35,9 +35,13 @@ Mesh builtinObject(const std::string& name) {
   throw Error(ErrorCode::bad_usage, "there is no built-in object '" + name + "': use one of " + known);
 }
 
-LoadedMesh findMesh(const std::string& name, double scale) {
-  if (name.rfind(prefix, 0) == 0) return {builtinObject(name.substr(prefix.size())), {}};
-  return loadMesh(name, scale);
+LoadedMesh findMesh(const std::string& name, double scale, const std::string& folder) {
+  if (name.rfind(prefix, 0) != 0) return loadMesh(name, scale, folder);
+  LoadedMesh builtin;
+  builtin.mesh = builtinObject(name.substr(prefix.size()));
+  builtin.file_colors.painted = builtin.mesh.triangles.size();
+  builtin.states_unit = true;
+  return builtin;
 }
 
 }  // namespace sks

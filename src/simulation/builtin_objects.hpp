@@ -15,6 +15,6 @@ std::vector<std::string> builtinNames();
 Mesh builtinObject(const std::string& name);
 
 /// A mesh by the name that command line and data set files give it: `builtin:mug`, or a file for loadMesh().
-LoadedMesh findMesh(const std::string& name, double scale = 0);
+LoadedMesh findMesh(const std::string& name, double scale = 0, const std::string& folder = "");
 
 }  // namespace sks

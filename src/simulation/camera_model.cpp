@@ -31,17 +31,24 @@ void validate(const CameraModel& camera) {
   constexpr int largest = 8192;
   check(camera.width > 0 && camera.width <= largest, "width", camera.width, "in [1, 8192] pixels");
   check(camera.height > 0 && camera.height <= largest, "height", camera.height, "in [1, 8192] pixels");
-  check(camera.fx > 0 && std::isfinite(camera.fx), "fx", camera.fx, "greater than 0 pixels");
-  check(camera.fy > 0 && std::isfinite(camera.fy), "fy", camera.fy, "greater than 0 pixels");
-  check(std::isfinite(camera.cx), "cx", camera.cx, "finite");
-  check(std::isfinite(camera.cy), "cy", camera.cy, "finite");
-  check(camera.min_range >= 0, "min_range", camera.min_range, "at least 0 m");
+  const auto within = [&](const std::string& name, double value, double low, double high, const std::string& unit) {
+    check(value >= low && value <= high, name, value,
+          "in [" + std::to_string(long(low)) + ", " + std::to_string(long(high)) + "] " + unit);
+  };
+  within("fx", camera.fx, 1, 100000, "pixels");
+  within("fy", camera.fy, 1, 100000, "pixels");
+  within("cx", camera.cx, -100000, 100000, "pixels");
+  within("cy", camera.cy, -100000, 100000, "pixels");
+  within("min_range", camera.min_range, 0, 1000, "m");
+  within("max_range", camera.max_range, 0, 1000, "m");
   check(camera.max_range > camera.min_range, "max_range", camera.max_range, "greater than min_range");
+  within("baseline", camera.baseline, 0, 100, "m");
   check(camera.baseline > 0 || !(camera.noise.disparity || camera.noise.shadow), "baseline", camera.baseline,
         "greater than 0 m for disparity steps and shadows");
+  within("disparity_step", camera.noise.disparity_step, 0, 1000, "pixels");
   check(camera.noise.disparity_step > 0 || !camera.noise.disparity, "disparity_step", camera.noise.disparity_step,
         "greater than 0 pixels");
-  check(camera.noise.lateral_sigma >= 0, "lateral_sigma", camera.noise.lateral_sigma, "at least 0 pixels");
+  within("lateral_sigma", camera.noise.lateral_sigma, 0, 1000, "pixels");
   check(camera.noise.grazing_from < camera.noise.grazing_to, "grazing_from", camera.noise.grazing_from,
         "less than grazing_to");
 }

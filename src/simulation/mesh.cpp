@@ -39,7 +39,8 @@ Rgb Mesh::color(std::size_t triangle, float u, float v, float footprint) const {
     const Eigen::Vector2f uv = w * a + u * b + v * c;
     const Texture& texture = textures[std::size_t(image)];
     const Eigen::Vector2f ab = b - a, ac = c - a;
-    const float texels = 0.5f * std::abs(ab.x() * ac.y() - ab.y() * ac.x()) * float(texture.width() * texture.height());
+    const float texels =
+        0.5f * std::abs(ab.x() * ac.y() - ab.y() * ac.x()) * float(texture.width()) * float(texture.height());
     const float area = areaVector(triangle).norm();
     const float per_metre = area > 0 ? std::sqrt(texels / area) : 0;
     return texture.at(uv.x(), uv.y(), footprint * per_metre);

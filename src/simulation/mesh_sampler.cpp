@@ -8,11 +8,16 @@
 
 namespace sks {
 
-MeshSampler meshSampler(const MeshTraining& training, std::function<void(const std::string&)> warn) {
-  return [training, warn = std::move(warn)](const TrainingEntry& entry, double scale) {
-    const double unit_given = scale < 1 ? scale : 0;  // metres are the default, and may have been left as they were
-    LoadedMesh loaded = findMesh(entry.path, unit_given);
+MeshSampler meshSampler(const MeshTraining& training, std::function<void(const std::string&)> warn,
+                        const std::string& folder) {
+  return [training, warn = std::move(warn), folder](const TrainingEntry& entry, double scale) {
+    // metres are the default of data sets, and may have been left as they were
+    const double unit_given = entry.scale || scale != 1 ? scale : 0;
+    LoadedMesh loaded = findMesh(entry.path, unit_given, folder);
     for (const std::string& warning : loaded.warnings) warn(warning);
+    if (loaded.states_unit && entry.scale.value_or(0) > 0) {
+      warn(entry.path + ": it states its unit itself, which is used instead of the one that is given for it");
+    }
     return meshSamples(entry.object, entry.source, std::make_shared<const Mesh>(std::move(loaded.mesh)), training);
   };
 }

@@ -12,6 +12,8 @@ namespace sks {
 
 /// What trainingSamples() needs to train from meshes: files, or `builtin:` and a name.
 /// @param warn gets what is odd about a mesh, in words
-MeshSampler meshSampler(const MeshTraining& training, std::function<void(const std::string&)> warn);
+/// @param folder no file outside of it is read, whatever a mesh names; empty: no confinement
+MeshSampler meshSampler(const MeshTraining& training, std::function<void(const std::string&)> warn,
+                        const std::string& folder = "");
 
 }  // namespace sks

@@ -166,7 +166,8 @@ void validate(const SceneOptions& options) {
   check(options.region > 0 && options.region <= 0.45, "region", options.region, "in (0, 0.45] m");
   check(options.wall_share >= 0 && options.wall_share <= 1, "wall_share", options.wall_share, "in [0, 1]");
   check(options.min_distance > 0, "min_distance", options.min_distance, "greater than 0 m");
-  check(options.max_distance >= options.min_distance, "max_distance", options.max_distance, "at least min_distance");
+  check(options.max_distance >= options.min_distance && options.max_distance <= 100, "max_distance",
+        options.max_distance, "in [min_distance, 100] m");
   check(options.min_elevation > 0, "min_elevation", options.min_elevation, "greater than 0 degrees");
   check(options.max_elevation >= options.min_elevation && options.max_elevation <= 90, "max_elevation",
         options.max_elevation, "in [min_elevation, 90] degrees");

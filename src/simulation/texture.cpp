@@ -7,6 +7,15 @@
 #include <sks_detector/error.hpp>
 
 namespace sks {
+namespace {
+
+/// In [0, 1], whatever the value is: pixels are addressed with it.
+float fraction(float value) {
+  const float result = value - std::floor(value);
+  return result >= 0 && result <= 1 ? result : 0.0f;
+}
+
+}  // namespace
 
 Texture::Texture(int width, int height, std::vector<Rgb> pixels) {
   if (width < 1 || height < 1 || pixels.size() != std::size_t(width) * std::size_t(height)) {
@@ -19,6 +28,7 @@ Texture::Texture(int width, int height, std::vector<Rgb> pixels) {
 
 Texture::Level Texture::half(const Level& level) {
   Level result{level.width / 2, level.height / 2, {}};
+  result.pixels.reserve(std::size_t(result.width) * std::size_t(result.height));
   for (int y = 0; y < result.height; ++y) {
     for (int x = 0; x < result.width; ++x) {
       int sum[3] = {2, 2, 2};  // rounds the mean
@@ -35,10 +45,11 @@ Texture::Level Texture::half(const Level& level) {
 }
 
 Rgb Texture::at(float u, float v, float footprint) const {
-  const float wanted = std::round(std::log2(std::max(footprint, 1.0f)));
-  const Level& level = levels_[std::min(std::size_t(wanted), levels_.size() - 1)];
-  const float x = (u - std::floor(u)) * float(level.width) - 0.5f;
-  const float y = (1 - (v - std::floor(v))) * float(level.height) - 0.5f;
+  const float coarsest = float(levels_.size() - 1);
+  const float wanted = footprint > 1 ? std::min(std::round(std::log2(footprint)), coarsest) : 0.0f;
+  const Level& level = levels_[std::size_t(wanted)];
+  const float x = fraction(u) * float(level.width) - 0.5f;
+  const float y = (1 - fraction(v)) * float(level.height) - 0.5f;
   const int column = int(std::floor(x)), row = int(std::floor(y));
   const float right = x - float(column), down = y - float(row);
   float sum[3] = {0.5f, 0.5f, 0.5f};

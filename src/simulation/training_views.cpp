@@ -6,6 +6,7 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/value_text.hpp"
 #include "simulation/renderer.hpp"
 #include "simulation/shapes.hpp"
 
@@ -51,6 +52,11 @@ std::vector<TrainingSample> meshSamples(const std::string& object, const std::st
   constexpr int most_views = 10000;
   if (training.views < 1 || training.views > most_views) {
     throw Error(ErrorCode::bad_usage, "views = " + std::to_string(training.views) + " must be in [1, 10000]");
+  }
+  constexpr double farthest = 100;
+  if (!(training.distance > 0 && training.distance <= farthest)) {
+    throw Error(ErrorCode::bad_usage,
+                "the distance of the views, " + toText(training.distance) + " m, must be in (0, 100] m");
   }
   CameraModel camera = training.camera;
   if (!training.noise) camera.noise = CameraNoise::none();

@@ -2,26 +2,49 @@
 #include "tools/mesh_options.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include <sks_detector/error.hpp>
 
+#include "io/length_unit.hpp"
 #include "simulation/builtin_objects.hpp"
 #include "simulation/mesh_sampler.hpp"
 #include "tools/command.hpp"
 
 namespace sks::tools {
 
+double meshScale(const std::string& text) {
+  if (text.empty()) return 0;
+  const std::optional<double> scale = metresIn(text);
+  if (!scale) {
+    throw Error(ErrorCode::bad_usage,
+                "--scale " + text + ": expected the unit of the meshes: " + known_units + " (from 1e-9 to 1000)");
+  }
+  return *scale;
+}
+
+void addMeshScale(CLI::App& command, std::string& text) {
+  command
+      .add_option(
+          "--scale", text,
+          "metres in a unit of the meshes that do not state it: a number, or m, cm, mm, inch (default: m, or mm "
+          "for meshes more than 5 units across)")
+      ->type_name("S");
+}
+
 void MeshOptions::add(CLI::App& command) {
   command
       .add_option("--mesh", meshes_,
-                  "an object's mesh (OBJ, PLY, STL, DAE), or builtin:mug and the like; can be repeated")
+                  "an object's mesh (OBJ, PLY, STL, DAE, glTF), or builtin:mug and the like; can be repeated")
       ->type_name("NAME=FILE")
       ->allow_extra_args(true);
+  addMeshScale(command, scale_);
   command.add_flag("--builtin", builtin_, "all objects that the program makes itself");
 }
 
 std::vector<TrainingEntry> MeshOptions::entries() const {
   std::vector<TrainingEntry> entries;
+  const double scale = meshScale(scale_);
   const auto add = [&](const std::string& name, const std::string& file) {
     const auto same = [&](const TrainingEntry& entry) { return entry.object == name; };
     if (std::any_of(entries.begin(), entries.end(), same)) {
@@ -31,6 +54,7 @@ std::vector<TrainingEntry> MeshOptions::entries() const {
     entry.object = name;
     entry.source = entry.path = file;
     entry.mesh = true;
+    entry.scale = file.rfind("builtin:", 0) == 0 ? 0 : scale;
     entries.push_back(entry);
   };
   if (builtin_) {

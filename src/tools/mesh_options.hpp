@@ -10,18 +10,26 @@
 
 namespace sks::tools {
 
-/// `--mesh NAME=FILE ...` and `--builtin`.
+/// Metres per unit of a mesh from the text of `--scale`: a number, or the name of a unit; 0 for no text.
+/// @throws Error(bad_usage)
+double meshScale(const std::string& text);
+
+/// Adds `--scale`, for meshes. @param text for meshScale()
+void addMeshScale(CLI::App& command, std::string& text);
+
+/// `--mesh NAME=FILE ...`, `--scale` and `--builtin`.
 class MeshOptions {
 public:
   void add(CLI::App& command);
 
   bool any() const { return builtin_ || !meshes_.empty(); }
   /// One training entry for each mesh, in their order; its source is the file as given, or `builtin:` and a name.
-  /// @throws Error(bad_usage) for a mesh without name or file, or a name that stands twice
+  /// @throws Error(bad_usage) for a mesh without name or file, a name that stands twice, or an impossible scale
   std::vector<TrainingEntry> entries() const;
 
 private:
   std::vector<std::string> meshes_;
+  std::string scale_;
   bool builtin_ = false;
 };
 

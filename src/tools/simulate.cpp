@@ -43,7 +43,7 @@ std::unique_ptr<BagRecorder> SimulateOptions::bagRecorder() const {
 std::vector<SceneModel> loadModels(const std::vector<TrainingEntry>& entries) {
   std::vector<SceneModel> models;
   for (const TrainingEntry& entry : entries) {
-    LoadedMesh loaded = findMesh(entry.path);
+    LoadedMesh loaded = findMesh(entry.path, entry.scale.value_or(0));
     for (const std::string& warning : loaded.warnings) warn(warning);
     models.push_back({entry.object, entry.source, std::make_shared<const Mesh>(std::move(loaded.mesh))});
   }

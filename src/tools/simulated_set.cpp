@@ -8,6 +8,7 @@
 
 #include <sks_detector/cloud_io.hpp>
 
+#include "core/settings/value_text.hpp"
 #include "io/file.hpp"
 #include "io/image_file.hpp"
 #include "simulation/mesh_symmetry.hpp"
@@ -40,6 +41,11 @@ DepthImage depthImage(const Rendering& view) {
   return image;
 }
 
+/// As it was given for the mesh.
+std::string unitText(const TrainingEntry& entry) {
+  return entry.scale.value_or(0) > 0 ? ", units: " + toText(*entry.scale) : "";
+}
+
 std::string symmetryText(const TrainingEntry& entry, const Mesh& mesh) {
   const std::optional<Symmetry> symmetry = entry.symmetry ? entry.symmetry : estimateSymmetry(mesh);
   if (!symmetry) return "";
@@ -58,7 +64,7 @@ SimulatedSet::SimulatedSet(const std::string& folder, const std::vector<Training
     objects_.push_back(models[i].object);
     boxes_.push_back(models[i].mesh->box().cast<double>());
     training_ += "  - {object: " + yamlText(objects_[i]) + ", cloud: " + yamlText(sources_[i]) + ", kind: mesh" +
-                 symmetryText(training[i], *models[i].mesh) + "}\n";
+                 unitText(training[i]) + symmetryText(training[i], *models[i].mesh) + "}\n";
   }
 }
 

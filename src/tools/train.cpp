@@ -56,6 +56,7 @@ void run(const TrainOptions& options) {
   const Codebook codebook = train(trainingSamples(data_set, options.mesh_views.sampler()), settings,
                                   options.name.empty() ? data_set.name : options.name, bar.callback());
   bar.clear();
+  for (const std::string& warning : trainingWarnings(codebook)) warn(warning);
   writeCodebook(options.output, codebook);
   const double seconds = stopwatch.lap();
 

@@ -200,6 +200,38 @@ class TrainingServicesTest(services_support.ServicesTest):
         self.assertEqual(self.succeed("info").objects, ["mug"])
         self.assertEqual(reply.views, 42)
 
+    def write_box(self, materials):
+        """An OBJ file of a box of 0.14 m x 0.09 m x 0.06 m that names its materials."""
+        with open(os.path.join(self.node.datasets, "box.obj"), "w") as file:
+            file.write("mtllib %s\nusemtl m\n" % materials)
+            for i in range(8):
+                file.write("v %g %g %g\n" % (0.14 * (i & 1), 0.09 * (i >> 1 & 1), 0.06 * (i >> 2)))
+            file.write("f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n")
+        self.write_dataset("box.yaml", [{"object": "box", "cloud": "box.obj", "kind": "mesh"}])
+
+    def test_materials_of_meshes_lie_in_the_folder_too(self):
+        outside, inside = (os.path.join(folder, "box.mtl") for folder in (self.folder, self.node.datasets))
+        for path in (outside, inside):
+            with open(path, "w") as file:
+                file.write("newmtl m\nKd 1 0 0\n")
+        self.write_box("box.mtl")
+        self.succeed("train", dataset="box.yaml")
+        self.assertEqual(self.succeed("info").descriptor, "cshot")
+        os.remove(inside)
+        for name in ("../box.mtl", outside):
+            self.write_box(name)
+            self.succeed("train", dataset="box.yaml")
+            self.assertEqual(self.succeed("info").descriptor, "shot", "without its colour")
+
+    def test_pipes_are_not_waited_for(self):
+        os.mkfifo(os.path.join(self.node.datasets, "pipe.yaml"))
+        self.refuse("train", "no regular file", dataset="pipe.yaml")
+        self.write_dataset("pipe_in_it.yaml", [dict(THING, cloud="pipe.yaml")])
+        self.refuse("train", "no regular file", dataset="pipe_in_it.yaml")
+        self.write_box("pipe.yaml")
+        self.succeed("train", dataset="box.yaml")
+        self.assertEqual(self.succeed("info").descriptor, "shot")
+
     def test_ends_quickly_while_it_trains(self):
         call = self.start_slow_training(output="ended.sks")
         self.assertEqual(self.node.stop(), 0)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -33,16 +34,30 @@ struct Mesh {
   Rgb color(std::size_t triangle, float u, float v, float footprint) const;
 };
 
+/// Where the colours of a file's triangles come from [triangles].
+struct MeshColors {
+  std::size_t textured = 0;  ///< from a picture
+  std::size_t painted = 0;   ///< from colours of vertices, faces or materials
+  std::size_t none = 0;      ///< the file states none; then the whole mesh is used without colour
+};
+
 /// A mesh from a file, and what is odd about it but can be used.
 struct LoadedMesh {
   Mesh mesh;
   std::vector<std::string> warnings;  ///< each naming the file
+  MeshColors file_colors;             ///< what the file states
+  bool states_unit = false;           ///< the file states its unit: it was used, whatever scale was given
 };
 
-/// Reads an OBJ, PLY, STL or DAE file with its textures and vertex colours.
-/// @param scale factor from the file's unit to metres; 0: recognised, a mesh of more than 5 units across is taken for
-///        millimetres with a warning
+/// Reads an OBJ, PLY, STL, DAE or glTF file with its textures and colours (docs/formats.md). A mesh has a colour only
+/// where its file states one for all of it.
+/// @param scale factor from the file's unit to metres, for files that do not state it; 0: recognised, a mesh of more
+///        than 5 units across is taken for millimetres with a warning
+/// @param folder no file outside of it is read, whatever the mesh names; empty: no confinement
 /// @throws Error(bad_file) naming the file and what is wrong: missing, damaged, no triangles, not finite, no extent
-LoadedMesh loadMesh(const std::string& path, double scale = 0);
+LoadedMesh loadMesh(const std::string& path, double scale = 0, const std::string& folder = "");
+
+/// Whether a file is called like one that loadMesh() reads: *.obj, *.ply, *.stl, *.dae, *.gltf, *.glb.
+bool isMeshName(const std::string& path);
 
 }  // namespace sks

@@ -19,7 +19,8 @@ public:
   int width() const { return levels_.empty() ? 0 : levels_.front().width; }
   int height() const { return levels_.empty() ? 0 : levels_.front().height; }
 
-  /// The colour at (u, v): u to the right, v upwards, both repeating outside of [0, 1]; bilinear.
+  /// The colour at (u, v): u to the right, v upwards, both repeating outside of [0, 1]; bilinear. What is not
+  /// finite counts as 0.
   /// @param footprint edge of the surface that is averaged, in texels
   Rgb at(float u, float v, float footprint = 1) const;
 

@@ -65,6 +65,23 @@ std::shared_ptr<const DescriptorStage> trainedDescriptors(const Stages& stages, 
   return stages.descriptors;
 }
 
+/// Of the whole object.
+Eigen::AlignedBox3f boxOf(const TrainingSample& sample, const Cloud& cloud) {
+  if (sample.box) return *sample.box;
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& p : cloud.points) box.extend(p);
+  return box;
+}
+
+/// Nothing of that size can be measured: its unit is another one.
+void checkSize(const Eigen::AlignedBox3f& box) {
+  constexpr float smallest = 0.001f;  // [m]
+  if (box.sizes().maxCoeff() >= smallest) return;
+  throw Error(ErrorCode::bad_data,
+              "it is less than 1 mm large; are its coordinates in another unit? See `units` of the "
+              "data set");
+}
+
 /// Codewords under construction. Descriptors start as CSHOT under `automatic`; from the first cloud without colour, or
 /// with the colours of a mesh, on they are SHOT, and what was there is cut down to its SHOT part.
 class CodebookBuilder {
@@ -89,6 +106,7 @@ public:
     const Settings& settings = codebook_.settings;
     const Orientation orientation = orientationOf(sample.kind);
     const Cloud cloud = sanitize(sample.load(), sanitizingFor(orientation, settings.sanitize), nullptr, threads_);
+    checkSize(boxOf(sample, cloud));
     if (may_drop_color_ && (sample.rendered || !cloud.hasColor())) dropColor();
 
     const Surface surface = prepareSurface(cloud, settings.surface, orientation, threads_);
@@ -132,9 +150,7 @@ private:
     view.frame = sample.frame;
     view.kind = sample.kind;
     view.sensor_origin = cloud.sensor_origin;
-    Eigen::AlignedBox3f box;
-    for (const auto& p : cloud.points) box.extend(p);
-    if (sample.box) box = *sample.box;
+    const Eigen::AlignedBox3f box = boxOf(sample, cloud);
     view.box_min = box.min();
     view.box_max = box.max();
     for (const std::uint32_t i : thinnedIndices(surface, codebook_.settings.training.surface_resolution)) {

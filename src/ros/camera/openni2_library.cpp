@@ -2,7 +2,6 @@
 #include "ros/camera/openni2_library.hpp"
 
 #include <array>
-#include <fstream>
 #include <mutex>
 #include <sstream>
 #include <vector>
@@ -10,6 +9,7 @@
 #include <sks_detector/error.hpp>
 
 #include "core/settings/value_text.hpp"
+#include "io/regular_file.hpp"
 
 namespace sks_detector {
 namespace {
@@ -71,7 +71,11 @@ std::string uriOf(const std::string& name, const std::vector<std::string>& uris)
 }
 
 void openRecording(const std::string& path, openni::Device& device) {
-  if (!std::ifstream(path)) throw Error(ErrorCode::bad_file, path + " (~device): no such file, or it cannot be read");
+  try {
+    const sks::RegularFile there(path);
+  } catch (const Error& error) {
+    throw Error(error.code(), path + " (~device) cannot be read: " + error.what());
+  }
   if (device.open(path.c_str()) != openni::STATUS_OK) {
     throw Error(ErrorCode::bad_file, path + " (~device) cannot be played: " + openNi2Error());
   }

@@ -2,11 +2,12 @@
 #include "tools/bag/bag_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <map>
+
+#include <sks_detector/error.hpp>
+
+#include "io/regular_file.hpp"
 
 namespace sks::tools {
 namespace {
@@ -23,13 +24,14 @@ std::string currentName(const std::string& type) {
 void checkIsFile(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) fail("cannot read '" + path + "': it is a folder, not a bag");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) fail("cannot read '" + path + "': " + std::strerror(errno));
-  if (file.peek() == std::ifstream::traits_type::eof()) {
-    fail("'" + path + "' is an empty file; was the recording ended at once?");
-  }
   std::string magic(7, '\0');
-  file.read(magic.data(), std::streamsize(magic.size()));
+  std::size_t size = 0;
+  try {
+    size = RegularFile(path).read(magic.data(), magic.size(), 0);
+  } catch (const Error& error) {
+    fail("cannot read '" + path + "': " + error.what());
+  }
+  if (size == 0) fail("'" + path + "' is an empty file; was the recording ended at once?");
   if (magic != "#ROSBAG" && magic != "#ROSREC") fail("'" + path + "' is no ROS bag");
 }
 
