@@ -67,6 +67,9 @@ struct DataSet {
 ///         key and remedy
 DataSet loadDataSet(const std::string& path);
 
+/// The same for the text of a file that need not be there yet. @param path where it is to lie
+DataSet parseDataSet(const std::string& text, const std::string& path);
+
 /// Turns a mesh into training views. @param scale metres per unit of the mesh
 using MeshSampler = std::function<std::vector<TrainingSample>(const TrainingEntry& entry, double scale)>;
 

@@ -15,6 +15,13 @@ bool startsWith(const std::string& bytes, const std::string& signature) {
   return bytes.compare(0, signature.size(), signature) == 0;
 }
 
+/// A remedy for what some data sets hold.
+void refuseTiff(const std::string& bytes) {
+  if (startsWith(bytes, std::string("II*\0", 4)) || startsWith(bytes, std::string("MM\0*", 4))) {
+    throw CodecError("it is a TIFF file: convert it to PNG, for example by `mogrify -format png *.tif`");
+  }
+}
+
 /// What `decode` makes of a file's bytes.
 template <typename Decode>
 auto readWith(const std::string& path, Decode decode) {
@@ -32,6 +39,7 @@ ColorImage readColorImage(const std::string& path) {
   return readWith(path, [](const std::string& bytes) {
     if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return decodeColorPng(bytes);
     if (startsWith(bytes, "\xff\xd8\xff")) return decodeJpeg(bytes);
+    refuseTiff(bytes);
     throw CodecError("it is neither a PNG nor a JPEG file");
   });
 }
@@ -39,6 +47,7 @@ ColorImage readColorImage(const std::string& path) {
 DepthImage readDepthImage(const std::string& path) {
   return readWith(path, [](const std::string& bytes) {
     if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return decodeDepthPng(bytes);
+    refuseTiff(bytes);
     throw CodecError("it is no PNG file");
   });
 }

@@ -4,13 +4,16 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <type_traits>
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/shown_text.hpp"
 #include "io/header_lines.hpp"
 #include "io/number_text.hpp"
 #include "io/ply_file.hpp"
+#include "io/point_colors.hpp"
 
 namespace sks {
 namespace {
@@ -50,7 +53,7 @@ private:
   double read() {
     if (format_ == PlyFormat::ascii) {
       const double value = readWord();
-      if (std::is_integral_v<T> && !std::isfinite(value)) badPly("it holds '" + word_ + "' for a whole number");
+      if (std::is_integral_v<T> && !std::isfinite(value)) badPly("it holds '" + shown(word_) + "' for a whole number");
       return value;
     }
     char bytes[sizeof(T)];
@@ -64,7 +67,7 @@ private:
   double readWord() {
     double value = 0;
     if (!(file_ >> word_)) badPly("it is truncated");
-    if (!parseNumber(word_, value)) badPly("it holds '" + word_ + "', no number");
+    if (!parseNumber(word_, value)) badPly("it holds '" + shown(word_) + "', no number");
     return value;
   }
 
@@ -82,7 +85,8 @@ void readInstance(Values& values, const PlyElement& element, std::vector<double>
       continue;
     }
     const double count = values.next(property.count_type);
-    if (!(count >= 0 && count <= double(std::numeric_limits<std::uint32_t>::max()))) badPly("a list has a wrong length");
+    if (!(count >= 0 && count <= double(std::numeric_limits<std::uint32_t>::max())))
+      badPly("a list has a wrong length");
     for (std::uint64_t i = 0; i < std::uint64_t(count); ++i) values.next(property.type);
     row.push_back(0);
   }
@@ -118,17 +122,48 @@ std::array<std::size_t, 3> coordinates(const PlyElement& vertices) {
   return indices;
 }
 
-/// Places of red, green and blue among the properties; incomplete where there is no colour.
-std::array<std::size_t, 3> channels(const PlyElement& vertices) {
-  auto indices = indicesOf(vertices, {"red", "green", "blue"});
-  if (!complete(indices)) indices = indicesOf(vertices, {"diffuse_red", "diffuse_green", "diffuse_blue"});
-  for (const std::size_t i : indices) {
-    if (i != absent && vertices.properties[i].type != PointField::uint8) {
-      badPly("property '" + vertices.properties[i].name + "' of its vertices must be uchar");
+std::vector<std::string> namesOfValues(const PlyElement& element) {
+  std::vector<std::string> names;
+  for (const PlyProperty& property : element.properties) names.push_back(property.list ? "" : property.name);
+  return names;
+}
+
+/// The colours of vertices, value by value.
+class VertexColors {
+public:
+  explicit VertexColors(const PlyElement& vertices)
+      : packed_(packedColorField(namesOfValues(vertices))), places_(colorChannelFields(namesOfValues(vertices))) {
+    if (packed_ && vertices.properties[*packed_].type < PointField::int32) packed_.reset();  // no room for three bytes
+    if (packed_) as_float_ = vertices.properties[*packed_].type == PointField::float32;
+    for (std::size_t i = 0; places_ && i < 3; ++i) types_[i] = vertices.properties[(*places_)[i]].type;
+  }
+
+  void add(const std::vector<double>& row) {
+    if (packed_) {
+      colors_.push_back(unpackedColor(bitsOf(row[*packed_])));
+    } else if (places_) {
+      channels_.emplace_back(float(row[(*places_)[0]]), float(row[(*places_)[1]]), float(row[(*places_)[2]]));
     }
   }
-  return indices;
-}
+
+  std::vector<Rgb> take() { return packed_ ? std::move(colors_) : colorsOfChannels(channels_, types_); }
+
+private:
+  std::uint32_t bitsOf(double value) const {
+    if (!as_float_) return std::abs(value) < 4294967296.0 ? std::uint32_t(std::int64_t(value)) : 0;
+    const auto narrow = float(value);
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &narrow, sizeof(bits));
+    return bits;
+  }
+
+  std::optional<std::size_t> packed_;
+  std::optional<std::array<std::size_t, 3>> places_;
+  std::array<std::uint8_t, 3> types_{};
+  bool as_float_ = false;
+  std::vector<Eigen::Vector3f> channels_;
+  std::vector<Rgb> colors_;
+};
 
 /// Fewest bytes of one instance in the file: of a number in text, a digit and a blank.
 double leastBytes(const PlyElement& element, PlyFormat format) {
@@ -141,18 +176,17 @@ double leastBytes(const PlyElement& element, PlyFormat format) {
 }
 
 void readVertices(Values& values, const PlyElement& element, double scale, Cloud& cloud) {
-  const auto axes = coordinates(element), rgb = channels(element);
-  const bool color = complete(rgb);
+  const auto axes = coordinates(element);
+  VertexColors colors(element);
   cloud.width = std::uint32_t(element.count);
   cloud.points.reserve(element.count);
-  if (color) cloud.colors.reserve(element.count);
-  const auto channel = [](double value) { return std::uint8_t(std::clamp(value, 0.0, 255.0)); };
   std::vector<double> row;
   for (std::uint64_t i = 0; i < element.count; ++i) {
     readInstance(values, element, row);
     cloud.points.emplace_back(float(scale * row[axes[0]]), float(scale * row[axes[1]]), float(scale * row[axes[2]]));
-    if (color) cloud.colors.push_back({channel(row[rgb[0]]), channel(row[rgb[1]]), channel(row[rgb[2]])});
+    colors.add(row);
   }
+  cloud.colors = colors.take();
 }
 
 void readCamera(Values& values, const PlyElement& element, double scale, Cloud& cloud) {

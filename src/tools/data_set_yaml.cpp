@@ -2,7 +2,8 @@
 #include "tools/data_set_yaml.hpp"
 
 #include <algorithm>
-#include <cstdio>
+
+#include "core/settings/number_format.hpp"
 
 namespace sks::tools {
 namespace {
@@ -10,9 +11,7 @@ namespace {
 constexpr double least_visibility = 0.05;  // objects of which less is seen are not asked for
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.9g", value);
-  return text;
+  return formatted("%.9g", value);
 }
 
 std::string groundTruthYaml(const GroundTruth& truth) {
@@ -32,7 +31,11 @@ std::string groundTruthYaml(const GroundTruth& truth) {
 
 std::string yamlText(const std::string& text) {
   std::string result = "\"";
-  for (const char c : text) result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') result += '\\';
+    result += code < 0x20 || code == 0x7f ? formatted("\\x%02x", unsigned(code)) : std::string(1, c);
+  }
   return result + "\"";
 }
 

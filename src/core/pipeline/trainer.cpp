@@ -8,7 +8,8 @@
 
 #include "core/descriptors/shot.hpp"
 #include "core/pipeline/default_stages.hpp"
-#include "core/surface/sanitize.hpp"
+#include "core/pipeline/scene_description.hpp"
+#include "core/settings/name_text.hpp"
 
 namespace sks {
 namespace {
@@ -87,7 +88,7 @@ public:
   void add(const TrainingSample& sample) {
     const Settings& settings = codebook_.settings;
     const Orientation orientation = orientationOf(sample.kind);
-    const Cloud cloud = sanitize(sample.load(), sanitizingFor(orientation, settings.sanitize), nullptr, threads_);
+    const Cloud cloud = usablePoints(sample.load(), orientation, settings);
     if (!cloud.hasColor() && may_drop_color_) dropColor();
 
     const Surface surface = prepareSurface(cloud, settings.surface, orientation, threads_);
@@ -171,6 +172,8 @@ Codebook train(const std::vector<TrainingSample>& samples, const Settings& setti
                const Progress& progress, const Stages& stages) {
   validate(settings);
   if (samples.empty()) throw Error(ErrorCode::bad_usage, "there is nothing to train: no training cloud was given");
+  if (!name.empty()) checkName(name, "the codebook's name");
+  for (const TrainingSample& sample : samples) checkName(sample.object, "the object's name");
   CodebookBuilder builder(settings, name, stages);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     report(progress, {"training", samples[i].source, i, samples.size()});

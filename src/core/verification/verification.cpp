@@ -139,16 +139,19 @@ double SurfaceVerifier::score(const Hypothesis& hypothesis, const Settings& sett
 std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
                                                    const Settings& settings, int threads) const {
   const std::vector<PoseCandidate> candidates = poseCandidates(*codebook_, weights_, spaces, scene, settings, threads);
-  std::vector<VoteDensity> densities;
-  densities.reserve(spaces.size());
-  for (const auto& votes : spaces) densities.emplace_back(votes, settings.voting.bandwidth);
+  std::vector<std::optional<VoteDensity>> densities(spaces.size());
+  for (const PoseCandidate& candidate : candidates) {
+    if (!densities[candidate.object]) {
+      densities[candidate.object].emplace(spaces[candidate.object], settings.voting.bandwidth);
+    }
+  }
   const auto examine = [&](Hypothesis hypothesis, std::size_t most_points, CorrespondenceSearch search) {
     const TrainingView& view = codebook_->views[hypothesis.view];
     hypothesis.T_scene_box = hypothesis.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
     hypothesis.box_size = view.extent().cast<double>();
     const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();
-    hypothesis.density = densities[hypothesis.object].at(center);
-    hypothesis.votes = densities[hypothesis.object].count(center);
+    hypothesis.density = densities[hypothesis.object]->at(center);
+    hypothesis.votes = densities[hypothesis.object]->count(center);
     PoseEvidence evidence =
         examinePose(view, weights_[hypothesis.view], scene, settings, hypothesis.T_scene_model, most_points, search);
     hypothesis.evidence = evidenceOf(evidence, densityAsOfHalf(hypothesis.density, settings.keypoints));
