@@ -42,6 +42,15 @@ TEST(NumberText, ReadsNumbersAndNothingElse) {
   }
 }
 
+TEST(NumberText, LinesMayEndInEveryWay) {
+  std::istringstream stream = plainStream(
+      "\xef\xbb\xbf"
+      "a\rb\r\nc\n\rd");
+  std::string all;
+  for (std::string line; std::getline(stream, line);) all += line + "|";
+  EXPECT_EQ(all, "a|b|c||d|");
+}
+
 /// Numbers as in Germany, without a locale of the system.
 class CommaNumbers : public std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
@@ -76,7 +85,7 @@ TEST_F(ForeignLocale, ChangesNoNumber) {
   EXPECT_EQ(value, 1234.5);
   EXPECT_FALSE(parseNumber("1234,5", value));
   int whole = 0;
-  EXPECT_TRUE(plainStream("12.5 1234567") >> value >> whole);
+  EXPECT_TRUE(bool(plainStream("12.5 1234567") >> value >> whole));
   EXPECT_EQ(value, 12.5);
   EXPECT_EQ(whole, 1234567);
 }

@@ -52,7 +52,16 @@ private:
   sigset_t signal_{}, before_{};
 };
 
-/// Beside the target; where its name with the ending is longer than the file system takes, with the begin of it alone.
+/// Makes the rename durable; where a file system cannot sync folders there is nothing more to be done.
+void syncFolder(const std::string& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
 std::string temporaryName(const std::string& target, const std::string& ending) {
   const fs::path path(target);
   std::string name = path.filename().string();
@@ -67,16 +76,6 @@ std::string temporaryName(const std::string& target, const std::string& ending) 
   }
   return (path.parent_path() / (name + ending)).string();
 }
-
-/// Makes the rename durable; where a file system cannot sync folders there is nothing more to be done.
-void syncFolder(const std::string& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);
-  ::close(descriptor);
-}
-
-}  // namespace
 
 AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(path) {
   std::error_code ignored;

@@ -46,7 +46,14 @@ bool parseNumber(const std::string& word, double& value) {
   return end == word.c_str() + word.size() || parseNotFinite(word, value);
 }
 
-std::istringstream plainStream(const std::string& text) {
+std::istringstream plainStream(std::string text) {
+  if (text.compare(0, 3, "\xef\xbb\xbf") == 0) text.erase(0, 3);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\r' && i + 1 < text.size() && text[i + 1] == '\n') continue;
+    text[kept++] = text[i] == '\r' ? '\n' : text[i];
+  }
+  text.resize(kept);
   std::istringstream stream(text);
   stream.imbue(std::locale::classic());
   return stream;

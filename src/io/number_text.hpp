@@ -10,7 +10,8 @@ namespace sks {
 /// no number.
 bool parseNumber(const std::string& word, double& value);
 
-/// A text to read numbers and words from, whatever the locale.
-std::istringstream plainStream(const std::string& text);
+/// A text to read numbers, words and lines from, whatever the locale, the ends of its lines (LF, CR or both) and a byte
+/// order mark before it.
+std::istringstream plainStream(std::string text);
 
 }  // namespace sks

@@ -3,7 +3,11 @@
 
 #include <algorithm>
 
+#include <sks_detector/error.hpp>
+
 #include "core/settings/number_format.hpp"
+#include "core/settings/shown_text.hpp"
+#include "core/settings/utf8.hpp"
 
 namespace sks::tools {
 namespace {
@@ -30,6 +34,9 @@ std::string groundTruthYaml(const GroundTruth& truth) {
 }  // namespace
 
 std::string yamlText(const std::string& text) {
+  if (!isUtf8(text)) {
+    throw Error(ErrorCode::bad_data, "the name '" + shown(text) + "' is not UTF-8, as data set files are: rename it");
+  }
   std::string result = "\"";
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);

@@ -55,12 +55,15 @@ public:
 
   std::size_t count() const { return names_.size(); }
 
+  /// @throws Error(bad_data) where the bag's names cannot stand in a data set
   std::string finish(const std::string& name) const {
     std::string path = (folder_ / "dataset.yaml").string();
-    writeFileAtomically(path,
-                        "# Clouds out of a bag, named by their stamps. Give each scene the objects that stand in "
-                        "it, and list what is to be trained.\nname: " +
-                            yamlText(name) + "\nunits: m\nmax_distance: 0.05\nscenes:\n" + scenes_);
+    const std::string text =
+        "# Clouds out of a bag, named by their stamps. Give each scene the objects that stand in "
+        "it, and list what is to be trained.\nname: " +
+        yamlText(name) + "\nunits: m\nmax_distance: 0.05\nscenes:\n" + scenes_;
+    parseDataSet(text, path);  // what would be refused later, such as a name in the bag, is not left behind
+    writeFileAtomically(path, text);
     return path;
   }
 

@@ -15,7 +15,7 @@ constexpr std::size_t largest_file = std::size_t(1) << 30;
 
 class OffReader {
 public:
-  explicit OffReader(const std::string& path) : path_(path), text_(readTextFile(path, largest_file)) {}
+  explicit OffReader(const std::string& path) : path_(path), text_(plainStream(readTextFile(path, largest_file))) {}
 
   OffMesh read() {
     std::string line = nextLine("'OFF'");

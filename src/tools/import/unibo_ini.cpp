@@ -26,7 +26,7 @@ std::string trimmed(const std::string& text) {
 /// Values by "SECTION.KEY", in capitals.
 std::map<std::string, std::string> readIni(const std::string& path) {
   std::map<std::string, std::string> values;
-  std::istringstream text(readTextFile(path));
+  std::istringstream text = plainStream(readTextFile(path));
   std::string section;
   for (std::string line; std::getline(text, line);) {
     line = trimmed(line);
