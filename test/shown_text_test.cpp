@@ -54,9 +54,9 @@ TEST(ShownText, CutsNoCharacterInTwo) {
 
 TEST(ShownText, ListsTheFirstOfManyNames) {
   EXPECT_EQ(shownList({"a", "b\n"}), "a, b\\n");
-  const std::string list = shownList(std::vector<std::string>(100000, std::string(1000, 'x')));
+  const std::string list = shownList(std::vector<std::string>(1000, std::string(1000, 'x')));
   EXPECT_LE(list.size(), 1000u);
-  EXPECT_THAT(list, HasSubstr(" and 99988 more"));
+  EXPECT_THAT(list, HasSubstr(" and 988 more"));
 }
 
 TEST(ShownText, ErrorsAreOneBoundedLine) {

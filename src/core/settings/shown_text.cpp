@@ -46,9 +46,14 @@ std::string shown(const std::string& text, std::size_t most) {
   const std::string gap = " ... (" + std::to_string(text.size()) + " bytes) ... ";
   const std::size_t room = most > gap.size() ? most - gap.size() : 0, of_end = room / 3;
   std::size_t end = text.size() - std::min(text.size(), of_end);
-  while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) ++end;  // not within a character
   std::string last = shownPart(text.substr(end), 4 * of_end);
-  if (last.size() > of_end) last.erase(of_end);
+  while (last.size() > of_end) {  // escapes take up to four bytes for one
+    end += (last.size() - of_end + 3) / 4;
+    last = shownPart(text.substr(end), 4 * of_end);
+  }
+  const std::size_t begin = end;
+  while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) ++end;  // not within a character
+  if (end > begin) last = shownPart(text.substr(end), of_end);
   return shownPart(text, room - of_end) + gap + last;
 }
 
