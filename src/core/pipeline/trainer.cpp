@@ -14,7 +14,7 @@
 namespace sks {
 namespace {
 
-constexpr std::size_t longest_name = 100;  // of a descriptor stage
+constexpr std::size_t longest_stage_name = 100;  // of a descriptor stage
 
 /// Numbers that grow in place: a vector would copy them from time to time, and hold them twice meanwhile. Large blocks
 /// are moved by the kernel, page by page.
@@ -55,10 +55,10 @@ std::shared_ptr<const DescriptorStage> trainedDescriptors(const Stages& stages, 
     return std::make_shared<const ShotDescriptors>(type == DescriptorType::automatic ? DescriptorType::cshot : type);
   }
   const std::string name = stages.descriptors->name();
-  if (name.empty() || name.size() > longest_name || name == "shot" || name == "cshot" ||
+  if (name.empty() || name.size() > longest_stage_name || name == "shot" || name == "cshot" ||
       stages.descriptors->size() == 0) {
     throw Error(ErrorCode::bad_usage, "a descriptor stage needs a size and a name of 1 to " +
-                                          std::to_string(longest_name) + " characters that is not shot or cshot; '" +
+                                          std::to_string(longest_stage_name) + " characters that is not shot or cshot; '" +
                                           name + "' of " + std::to_string(stages.descriptors->size()) +
                                           " values is none");
   }

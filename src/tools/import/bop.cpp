@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double least_visibility = 0.1;  // objects of which less is seen are not asked for, as in the challenge
+constexpr double least_part_seen = 0.1;  // objects of which less is seen are not asked for, as in the challenge
 
 /// The folder of scenes.
 fs::path splitFolder(const ImportOptions& options) {
@@ -151,7 +151,7 @@ private:
       truth.T_scene_reference = instance.T_camera_model;
       truth.position = instance.T_camera_model * center->second;
       if (instance.visibility) truth.visibility = std::clamp(*instance.visibility, 0.0, 1.0);
-      const bool visible = instance.visibility.value_or(1) >= least_visibility;
+      const bool visible = instance.visibility.value_or(1) >= least_part_seen;
       (visible ? seen : hidden).insert(truth.object);
       if (visible) scene.objects.push_back(std::move(truth));
     }
