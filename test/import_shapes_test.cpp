@@ -93,7 +93,7 @@ TEST_F(ImportPrinceton, TakesClassesFromTheClassification) {
   ASSERT_EQ(set.tests.size(), 1u);
   EXPECT_EQ(set.tests[0].object, "chair");
   EXPECT_NEAR(boxOf(readCloud(set.tests[0].path)).diagonal().norm(), 0.5, 1e-5);
-  EXPECT_EQ(imported("psb", {"--points", "100", "--classification", "coarse3"}).training[0].object, "thing");
+  EXPECT_EQ(imported("psb", {"--force", "--points", "100", "--classification", "coarse3"}).training[0].object, "thing");
 }
 
 TEST_F(ImportPrinceton, NamesWhatIsWrong) {
@@ -133,7 +133,7 @@ TEST_F(ImportWashington, RecognisesMillimetresAndForeignFolders) {
   EXPECT_THAT(refusal("washington"), HasSubstr("is not the Washington RGB-D data set"));
   write("apple/apple_1/apple_1_1_1.pcd", pcdText({{0, 0, 800}, {10, 0, 800}}));
   EXPECT_EQ(imported("washington").scale, 0.001);
-  EXPECT_EQ(imported("washington", {"--units", "m"}).scale, 1.0);
+  EXPECT_EQ(imported("washington", {"--force", "--units", "m"}).scale, 1.0);
 }
 
 TEST_F(ImportBigBird, TestsEverySecondTurn) {

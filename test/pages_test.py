@@ -10,7 +10,7 @@ import sys
 import tempfile
 import unittest
 
-COMPLETION, MANUAL, SKS, SOURCE = sys.argv[1:5]
+COMPLETION, MANUAL, SKS, SOURCE = (os.path.abspath(path) for path in sys.argv[1:5])
 
 # Splits a line as bash does, and prints what the function of the completion offers.
 ASK = r'''

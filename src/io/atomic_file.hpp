@@ -6,8 +6,8 @@
 
 namespace sks {
 
-/// A name beside the target: its own with an ending, and where that is longer than the file system takes, with the begin
-/// of it alone.
+/// A name beside the target: its own with an ending, and where that is longer than the file system takes, with the
+/// begin of it alone.
 std::string temporaryName(const std::string& target, const std::string& ending);
 
 /// A file that appears whole or not at all: it is written under a temporary name in the same folder, and commit()

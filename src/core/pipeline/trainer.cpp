@@ -58,9 +58,9 @@ std::shared_ptr<const DescriptorStage> trainedDescriptors(const Stages& stages, 
   if (name.empty() || name.size() > longest_stage_name || name == "shot" || name == "cshot" ||
       stages.descriptors->size() == 0) {
     throw Error(ErrorCode::bad_usage, "a descriptor stage needs a size and a name of 1 to " +
-                                          std::to_string(longest_stage_name) + " characters that is not shot or cshot; '" +
-                                          name + "' of " + std::to_string(stages.descriptors->size()) +
-                                          " values is none");
+                                          std::to_string(longest_stage_name) +
+                                          " characters that is not shot or cshot; '" + name + "' of " +
+                                          std::to_string(stages.descriptors->size()) + " values is none");
   }
   return stages.descriptors;
 }
