@@ -10,6 +10,10 @@ install(TARGETS ${PROJECT_NAME}_core ${PROJECT_NAME}_simulation EXPORT ${PROJECT
   RUNTIME DESTINATION ${sks_bin_dir})
 if(TARGET sks)
   install(TARGETS sks RUNTIME DESTINATION ${sks_bin_dir})
+  #catkin_lint: ignore_once external_file
+  install(FILES ${sks_completion} DESTINATION ${sks_data_dir}/bash-completion/completions)
+  #catkin_lint: ignore_once external_file
+  install(FILES ${sks_manual} DESTINATION ${sks_data_dir}/man/man1)
 endif()
 install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${sks_include_dir} FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY config DESTINATION ${sks_share_dir} FILES_MATCHING PATTERN "*.yaml" PATTERN "*.rviz")

@@ -3,6 +3,7 @@
 #ifdef SKS_EXECUTABLE  // not where the command line is left out of the build
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 
@@ -153,6 +154,44 @@ TEST_F(CommandLine, TrainDetectInfoVerify) {
   EXPECT_THAT(readTextFile(path("found.png")), StartsWith("\x89PNG"));
 }
 
+TEST_F(CommandLine, NothingIsSuggestedThatResemblesNothing) {
+  EXPECT_EQ(failure(runSks({"banana"}), 2), "sks: unknown subcommand 'banana'; see --help\n");
+  EXPECT_EQ(failure(train({"--set", "banana=1"}), 2),
+            "sks: unknown setting 'banana'; `sks settings` lists all there are\n");
+  EXPECT_EQ(failure(train({"--set", "sanitize.banana=1"}), 2).find("did you mean"), std::string::npos);
+}
+
+TEST_F(CommandLine, TextFromOutsideIsShortenedAndCleaned) {
+  for (const std::string& text : {std::string("a\n\x1b[31mb"), std::string(100000, 'x'), std::string("caf\xe9")}) {
+    for (const CommandRun& run :
+         {runSks({text}), runSks({"info", text}), train({"--set", text}), train({"--set", text + "=1"}), detect(text),
+          train({"--set", "descriptor.type=" + text}), train({"--name", text}), train({"--mesh", text + "=a.ply"}),
+          runSks({"evaluate", "--dataset", path("toys.yaml"), "--method", text})}) {
+      EXPECT_LT(failure(run, run.status).size(), 5000u);
+      EXPECT_NE(run.status, 0);
+      EXPECT_EQ(run.errors.find('\x1b'), std::string::npos) << run.errors;
+      EXPECT_EQ(run.errors.find('\xe9'), std::string::npos) << run.errors;
+    }
+  }
+}
+
+TEST_F(CommandLine, CodebooksAreCalledSo) {
+  const std::string expected =
+      "sks: '" + path("toys.txt") + "' is not called like a codebook; let its name end with .sks\n";
+  EXPECT_EQ(failure(runSks({"train", "-d", path("toys.yaml"), "-o", path("toys.txt")}), 2), expected);
+  EXPECT_EQ(failure(runSks({"classify", "-d", path("toys.yaml"), "--save-codebook", path("toys.txt")}), 2), expected);
+}
+
+TEST_F(CommandLine, MethodsThatCannotEvaluateAreNotOffered) {
+  const auto help = [](const std::string& command) { return runSks({command, "--help"}).output; };
+  EXPECT_EQ(help("evaluate").find("knopp"), std::string::npos);
+  EXPECT_THAT(help("evaluate"), HasSubstr("aldoma"));
+  EXPECT_THAT(help("classify"), HasSubstr("knopp"));
+  EXPECT_EQ(help("classify").find("aldoma"), std::string::npos);
+  const std::string message = failure(runSks({"evaluate", "-d", path("toys.yaml"), "-m", "tombary"}), 2);
+  EXPECT_THAT(message, HasSubstr("there is no method 'tombary'; did you mean 'tombari'?"));
+}
+
 TEST_F(CommandLine, JsonOnStdoutIsAlone) {
   const CommandRun trained = train({"--json", "-"});
   EXPECT_EQ(json::parse(trained.output)["name"], "toys");
@@ -212,6 +251,19 @@ TEST_F(CommandLine, UnusableClouds) {
             "sks: cannot read cloud '" + path("none.pcd") + "': No such file or directory\n");
   EXPECT_EQ(failure(detect("foreign.pcd")),
             "sks: cannot read cloud '" + path("foreign.pcd") + "': it is neither a PCD nor a PLY file\n");
+}
+
+TEST_F(CommandLine, CloudsThatWereScaledTwiceAreNamed) {
+  ASSERT_EQ(train().status, 0);
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_THAT(
+      failure(detect("bumps.pcd", {"--scale", "0.001"})),
+      AllOf(HasSubstr("the cloud is too small: it is "), HasSubstr(" mm large, and surface.normal_radius is 10 mm"),
+            HasSubstr("do not scale it to metres again")));
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 5);
+  test::writeFile(path("toys.yaml"),
+                  "name: toys\nunits: mm\ntraining:\n  - {object: bumps, cloud: bumps.pcd, kind: view}\n");
+  EXPECT_THAT(failure(train()), HasSubstr("bumps.pcd: the cloud is too small"));
 }
 
 TEST_F(CommandLine, MillimetresAreNamedAndCanBeScaled) {

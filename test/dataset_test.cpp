@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/dataset.hpp"
 
+#include <chrono>
 #include <filesystem>
 
 #include <gmock/gmock.h>
@@ -188,6 +189,78 @@ TEST_F(DataSetFile, ValuesOfTheWrongKindAreRefused) {
 TEST_F(DataSetFile, ScenesNeedNamesOfTheirOwn) {
   EXPECT_THAT(refusal(head + "scenes:\n  - {name: a, cloud: scenes/a.pcd}\n  - {name: a, cloud: scenes/b.pcd}\n"),
               HasSubstr(":6: 'name' of a scene is 'a', which an earlier scene has"));
+}
+
+TEST_F(DataSetFile, OtherEncodingsAreRefusedWithTheLine) {
+  const std::string training = "training:\n  - {object: duck, cloud: ../views/duck0.pcd, kind: view}\n";
+  EXPECT_EQ(load("\xef\xbb\xbf" + head + training).training.at(0).object, "duck");
+  EXPECT_EQ(load("name: m\xc3\xbcll\nunits: mm\n" + training).name, "m\xc3\xbcll");
+  EXPECT_EQ(
+      refusal("units: mm\nname: m\xfcll\n" + training, ErrorCode::bad_file),
+      file() + ":2: the byte 0xfc is not UTF-8: save the file as UTF-8, or convert it by iconv -f LATIN1 -t UTF-8");
+  for (const std::string& mark : {std::string("\xff\xfe", 2), std::string("\xfe\xff", 2), std::string()}) {
+    std::string wide = mark;
+    for (const char c : head + training) wide += mark == "\xfe\xff" ? std::string({'\0', c}) : std::string({c, '\0'});
+    EXPECT_THAT(refusal(wide, ErrorCode::bad_file),
+                HasSubstr(":1: the file is UTF-16 or UTF-32, not UTF-8: save it as UTF-8"));
+  }
+  EXPECT_THAT(refusal(head + std::string("#\0\n", 3) + training, ErrorCode::bad_file),
+              HasSubstr(":4: not a text file"));
+}
+
+TEST_F(DataSetFile, ATabIsCalledATab) {
+  for (const std::string text : {"training:\n\t- {object: duck, cloud: ../views/duck0.pcd, kind: view}\n",
+                                 "training:\n  - object: duck\n\tcloud: ../views/duck0.pcd\n", "\ttraining: []\n"}) {
+    EXPECT_THAT(refusal(head + text, ErrorCode::bad_file),
+                HasSubstr(": a tab, which is no indentation in YAML: use spaces"));
+  }
+  EXPECT_THAT(refusal(head + "training:\n  - object: duck\n\tcloud: x\n", ErrorCode::bad_file),
+              HasSubstr("toys.yaml:6: "));
+  EXPECT_EQ(
+      load("name:\ttoys\nunits: mm\ntraining:\n  - {object: duck,\tcloud: ../views/duck0.pcd, kind: view}\n").name,
+      "toys");
+}
+
+TEST_F(DataSetFile, NamesMustBeFitToBeShown) {
+  const auto with = [&](const std::string& name) {
+    return refusal(head + "training:\n  - {object: " + name + ", cloud: ../views/duck0.pcd, kind: view}\n");
+  };
+  EXPECT_THAT(with("\"du\\x1b[31mck\""),
+              HasSubstr(":5: 'object' of a training cloud is 'du\\x1b[31mck', which is refused: "
+                        "it contains a control character"));
+  EXPECT_THAT(with("\"du\\0ck\""), HasSubstr("control character"));
+  EXPECT_THAT(with("\"du\\nck\""), HasSubstr("control character"));
+  EXPECT_THAT(with(std::string(201, 'x')), HasSubstr("it has 201 bytes; use at most 200"));
+  EXPECT_LT(with(std::string(10000, 'x')).size(), 500u);
+  EXPECT_THAT(refusal("name: \"a\\tb\"\nunits: mm\n"),
+              HasSubstr("'name' of the data set is 'a\\tb', which is refused"));
+}
+
+TEST_F(DataSetFile, UnknownKeysThatResembleNoneAreAnsweredWithAList) {
+  EXPECT_EQ(
+      refusal(head + "banana: []\n"),
+      file() +
+          ":4: unknown key 'banana' in the data set; there are: name, units, max_distance, training, scenes, tests");
+}
+
+/// A set of simulated scenes may have tens of thousands of them; the time for each must not grow with their number.
+TEST_F(DataSetFile, ManyScenesTakeTimeInProportion) {
+  const auto seconds = [&](int count) {
+    std::string text = head + "scenes:\n";
+    for (int i = 0; i < count; ++i) text += "  - {name: s" + std::to_string(i) + ", cloud: scenes/a.pcd}\n";
+    test::writeFile(file(), text);
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(loadDataSet(file()).scenes.size(), std::size_t(count));
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  };
+  const double few = seconds(1000);
+  EXPECT_LT(seconds(8000), 8 * 4 * few + 0.5);  // were it quadratic: 64 times as long
+}
+
+TEST_F(DataSetFile, IsReadBeforeItIsWritten) {
+  const std::string text = head + "training:\n  - {object: duck, cloud: ../views/duck0.pcd, kind: view}\n";
+  EXPECT_EQ(parseDataSet(text, file()).training.at(0).path, folder_.path("views/duck0.pcd"));
+  EXPECT_FALSE(std::filesystem::exists(file()));
 }
 
 TEST_F(DataSetFile, WarnsOfWhatIsOdd) {

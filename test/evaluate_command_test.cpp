@@ -282,7 +282,7 @@ TEST_F(EvaluateCommand, AMissingCodebookIsNamed) {
 TEST_F(EvaluateCommand, BadUsageHasItsOwnStatus) {
   const CommandRun method = evaluate({"--method", "magic"});
   EXPECT_EQ(method.status, 2);
-  EXPECT_THAT(method.errors, AllOf(HasSubstr("magic"), HasSubstr("sks,sks-paper,grid")));
+  EXPECT_THAT(method.errors, AllOf(HasSubstr("magic"), HasSubstr("there are: sks, sks-paper, grid, tombari")));
   EXPECT_EQ(evaluate({"--set", "keypoints.discrad=0.5"}).status, 2);
   EXPECT_EQ(evaluate({"--codebook", "a.sks", "--save-codebook", "b.sks"}).status, 2);
   EXPECT_EQ(runSks({"evaluate"}).status, 2);

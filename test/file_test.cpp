@@ -53,6 +53,19 @@ TEST(File, AbandonedFileLeavesTheOldOneAndNoRest) {
   EXPECT_EQ(sks::readTextFile(folder.path("a.txt")), "old");
 }
 
+TEST(File, NamesMayBeAsLongAsTheFileSystemTakes) {
+  const TemporaryFolder folder;
+  std::string umlauts;
+  for (int i = 0; i < 127; ++i) umlauts += "\xc3\xa4";
+  for (const std::string& name : {std::string(250, 'x'), std::string(255, 'y'), umlauts}) {
+    sks::writeFileAtomically(folder.path(name), name);
+    EXPECT_EQ(sks::readTextFile(folder.path(name)), name);
+  }
+  EXPECT_EQ(folder.fileCount(), 3u);
+  const std::string message = fileError([&] { sks::writeFileAtomically(folder.path(std::string(256, 'z')), "z"); });
+  EXPECT_NE(message.find("choose a shorter name"), std::string::npos) << message;
+}
+
 TEST(File, FollowsSymbolicLinks) {
   const TemporaryFolder folder;
   sks::writeFileAtomically(folder.path("real.txt"), "old");

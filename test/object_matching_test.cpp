@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/matching/object_matching.hpp"
 
+#include <chrono>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -53,6 +54,25 @@ TEST(ObjectMatching, FindsTheNearestWordOfEachObjectThatIsNearlyAsNear) {
     EXPECT_NEAR(matches[i].distance, expected[i].distance, 1e-5);
     EXPECT_NEAR(matches[i].weight, expected[i].weight, 1e-3);
   }
+}
+
+TEST(ObjectMatching, ObjectsWithoutWordsCostNothing) {
+  const std::size_t size = 32;
+  const Rows words = histograms(120, size, 3), queries = histograms(400, size, 4);
+  const Codebook few = codebookOf(words, size);
+  Codebook many = few;
+  for (int i = 0; i < 100000; ++i) many.objects.push_back("none " + std::to_string(i));
+  std::swap(many.objects[1], many.objects.back());
+  for (TrainingView& view : many.views) {
+    if (view.object == 1)
+      view.object = std::uint32_t(many.objects.size() - 1);  // the order of objects is that of matches
+  }
+  const auto expected = ObjectMatcher(few).match(matrix(queries, size), 1.0, 1);
+  const auto start = std::chrono::steady_clock::now();
+  const auto matches = ObjectMatcher(many).match(matrix(queries, size), 1.0, 1);
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 1);
+  ASSERT_EQ(matches.size(), expected.size());
+  for (std::size_t i = 0; i < matches.size(); ++i) EXPECT_EQ(matches[i].word, expected[i].word);
 }
 
 TEST(ObjectMatching, WithoutAmbiguityEqualsTheNearestOfAll) {

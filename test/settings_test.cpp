@@ -136,7 +136,8 @@ TEST(Settings, UnknownKeyNamesTheNearest) {
   EXPECT_EQ(sks::nearestSettingKey("descriptor.grid_size"), "keypoints.grid_size");
   EXPECT_EQ(sks::nearestSettingKey("keypoint.discard"), "keypoints.discard");
   EXPECT_EQ(sks::nearestSettingKey("ransac.iteratoins"), "ransac.iterations");
-  EXPECT_FALSE(sks::nearestSettingKey("").empty());
+  EXPECT_EQ(sks::nearestSettingKey(""), "");
+  EXPECT_EQ(sks::nearestSettingKey("keypoints.banana"), "");
 }
 
 TEST(Settings, BadTextNamesTypeRangeAndUnit) {

@@ -15,10 +15,11 @@ enum class ErrorCode {
   cancelled      ///< the progress callback asked to stop
 };
 
-/// The one exception that the core throws. `what()` names the file, key or parameter and the remedy.
+/// The one exception that the core throws. `what()` names the file, key or parameter and the remedy. It is one line of
+/// UTF-8 without control characters and of bounded length, whatever text from outside the message quotes.
 class Error : public std::runtime_error {
 public:
-  Error(ErrorCode code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  Error(ErrorCode code, const std::string& message);
 
   ErrorCode code() const noexcept { return code_; }
 

@@ -393,7 +393,7 @@ void validate(const Settings& settings);
 /// The keys bound to the codebook (Binding::codebook) in which the two differ.
 std::vector<std::string> bindingConflicts(const Settings& codebook, const Settings& wanted);
 
-/// The known key that is nearest to a misspelt one, by edit distance.
+/// The known key that is nearest to a misspelt one, by edit distance; empty where none is near.
 std::string nearestSettingKey(const std::string& key);
 
 /// `settings.threads`, 0 replaced by the number of cores; at most so many, or 16 if that is more.

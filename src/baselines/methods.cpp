@@ -54,8 +54,8 @@ const std::vector<Method>& methods() {
        "without its verification, which isolated objects are not put to, it is chen: use --method chen",
        "the hypotheses of chen, ICP and global verification"},
       {"zhou", {"zhou"}, "", "", "self-adapted thresholds, RANSAC and ICP twice"},
-      {"knopp", {"knopp"}, isolated_only, "", "implicit shape model (sks classify only)"},
-      {"seib", {"seib"}, isolated_only, "", "continuous voting, weighted (sks classify only)"},
+      {"knopp", {"knopp"}, isolated_only, "", "implicit shape model"},
+      {"seib", {"seib"}, isolated_only, "", "continuous voting, weighted"},
   };
   return list;
 }

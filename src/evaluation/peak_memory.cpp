@@ -12,7 +12,7 @@ double peakMemoryMb() {
   // getrusage() hands down the peak of the process that started this one, so the kernel's own mark comes first
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);) {
-    if (line.rfind("VmHWM:", 0) == 0) return std::stod(line.substr(6)) / 1024.0;
+    if (line.rfind("VmHWM:", 0) == 0) return double(std::stoll(line.substr(6))) / 1024.0;
   }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

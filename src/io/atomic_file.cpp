@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/atomic_file.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <climits>
 #include <csignal>
 #include <ctime>
 #include <filesystem>
@@ -60,6 +62,21 @@ void syncFolder(const std::string& folder) {
 
 }  // namespace
 
+std::string temporaryName(const std::string& target, const std::string& ending) {
+  const fs::path path(target);
+  std::string name = path.filename().string();
+  const long of_folder = ::pathconf(folderOf(target).c_str(), _PC_NAME_MAX);
+  const std::size_t before_name = std::min<std::size_t>(target.size() - name.size(), PATH_MAX);
+  const std::size_t most =
+      std::min<std::size_t>(of_folder > 0 ? std::size_t(of_folder) : NAME_MAX, PATH_MAX - before_name);
+  if (name.size() <= most && name.size() + ending.size() > most && most > ending.size()) {
+    std::size_t size = most - ending.size();
+    while (size > 0 && (static_cast<unsigned char>(name[size]) & 0xc0) == 0x80) --size;  // whole characters
+    name.resize(size);
+  }
+  return (path.parent_path() / (name + ending)).string();
+}
+
 AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(path) {
   std::error_code ignored;
   if (path.empty()) fail("the name is empty");
@@ -74,12 +91,14 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(path) {
   }
   if (fs::is_symlink(path, ignored)) target_ = fs::weakly_canonical(path).string();
   static std::atomic<unsigned> count{0};
-  temporary_ = target_ + ".part" + std::to_string(::getpid()) + "_" + std::to_string(count++);
+  temporary_ = temporaryName(target_, ".part" + std::to_string(::getpid()) + "_" + std::to_string(count++));
   file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (file_ < 0) {
+    const int error_number = errno;
     const std::string reason = systemReason();
     temporary_.clear();
-    fail(reason + "; choose a folder that can be written to");
+    fail(reason +
+         (error_number == ENAMETOOLONG ? "; choose a shorter name" : "; choose a folder that can be written to"));
   }
 }
 

@@ -6,6 +6,10 @@
 
 namespace sks {
 
+/// A name beside the target: its own with an ending, and where that is longer than the file system takes, with the
+/// begin of it alone.
+std::string temporaryName(const std::string& target, const std::string& ending);
+
 /// A file that appears whole or not at all: it is written under a temporary name in the same folder, and commit()
 /// renames it. Where the path is no regular file (a pipe, a device), it is written directly.
 class AtomicFile {

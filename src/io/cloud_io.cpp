@@ -24,14 +24,21 @@ namespace {
 
 enum class Format { pcd, ply, foreign };
 
-/// By the first line, whatever the file is called.
+/// By the first line, whatever the file is called. Leaves the file where its text begins: behind the mark that some
+/// editors put before UTF-8.
 Format formatOf(std::istream& file) {
+  char mark[3] = {};
+  const bool marked = file.read(mark, 3) && std::string(mark, 3) == "\xef\xbb\xbf";
+  const auto begin = [&] {
+    file.clear();
+    file.seekg(marked ? 3 : 0);
+  };
+  begin();
   std::vector<std::string> words;
-  const bool text = readHeaderLine(file, words, headerLineEnd(file)) && !words.empty();
-  file.clear();
-  file.seekg(0);
+  const bool text = HeaderLines(file).next(words) && !words.empty();
+  begin();
   if (!text) return Format::foreign;
-  if (words[0] == "ply") return Format::ply;
+  if (words[0] == "ply" || words[0] == "PLY") return Format::ply;
   return words[0][0] == '#' || words[0] == "VERSION" || words[0] == "FIELDS" ? Format::pcd : Format::foreign;
 }
 

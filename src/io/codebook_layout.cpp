@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/error.hpp>
 
+#include "core/settings/name_text.hpp"
+#include "core/settings/shown_text.hpp"
 #include "core/settings/value_text.hpp"
 #include "io/crc32c.hpp"
 
@@ -85,6 +89,14 @@ CodebookHeader checkCodebookHeader(const std::uint8_t* file, std::size_t size) {
   return header;
 }
 
+void checkCodebookName(const std::string& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  const bool special = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+  if (special || std::filesystem::path(path).extension() == ".sks") return;
+  throw Error(ErrorCode::bad_usage, "'" + shown(path) + "' is not called like a codebook; let its name end with .sks");
+}
+
 std::string descriptorText(const Codebook& codebook) {
   return codebook.own_descriptor.empty() ? toText(codebook.descriptor_type) : own_prefix + codebook.own_descriptor;
 }
@@ -105,9 +117,16 @@ std::string codebookFault(const Codebook& codebook) {
     return "its " + std::to_string(codebook.words.size()) + " codewords have " + std::to_string(descriptors.rows()) +
            " descriptors of " + std::to_string(descriptors.cols()) + " bins";
   }
+  if (!codebook.name.empty() && !nameFault(codebook.name).empty()) {
+    return "its name '" + shown(codebook.name, 60) + "' cannot be used: " + nameFault(codebook.name);
+  }
+  for (const std::string& object : codebook.objects) {
+    const std::string fault = nameFault(object);
+    if (!fault.empty()) return "the name '" + shown(object, 60) + "' of an object cannot be used: " + fault;
+  }
   for (const TrainingView& view : codebook.views) {
     const std::string fault = viewFault(codebook, view);
-    if (!fault.empty()) return "its training cloud '" + view.source + "' " + fault;
+    if (!fault.empty()) return "its training cloud '" + shown(view.source) + "' " + fault;
   }
   for (std::size_t i = 0; i < codebook.words.size(); ++i) {
     const Codeword& word = codebook.words[i];

@@ -45,6 +45,10 @@ static_assert(sizeof(CodebookHeader) == 64, "the header must have no padding");
 /// @throws Error(bad_file) saying what is wrong and what helps, without the file's name
 CodebookHeader checkCodebookHeader(const std::uint8_t* file, std::size_t size);
 
+/// Refuses a file to be written that is not called like a codebook, *.sks, unless it is a pipe or a device.
+/// @throws Error(bad_usage)
+void checkCodebookName(const std::string& path);
+
 /// What the file says of the descriptors: shot, cshot, or own:NAME.
 std::string descriptorText(const Codebook& codebook);
 

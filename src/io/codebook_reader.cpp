@@ -6,6 +6,7 @@
 #include <sks_detector/settings_file.hpp>
 
 #include "codebook_generated.h"
+#include "core/settings/shown_text.hpp"
 #include "core/settings/value_text.hpp"
 #include "io/codebook_layout.hpp"
 #include "io/file_content.hpp"
@@ -32,7 +33,8 @@ TrainingView fromFormat(const format::View& from) {
   TrainingView view;
   view.object = from.object();
   view.source = from.source()->str();
-  if (from.kind() > format::ViewKind_MAX) badCodebook("its training cloud '" + view.source + "' is of an unknown kind");
+  if (from.kind() > format::ViewKind_MAX)
+    badCodebook("its training cloud '" + shown(view.source) + "' is of an unknown kind");
   view.kind = ViewKind(from.kind());
   if (from.frame() != nullptr) view.frame = from.frame()->str();
   view.sensor_origin = fromFormat(*from.sensor_origin());
@@ -61,7 +63,7 @@ Settings readSettings(const std::string& yaml) {
     validate(settings);
   } catch (const Error& error) {
     badCodebook(std::string("it was trained with settings that this version does not know: ") + error.what() +
-         "; train it again");
+                "; train it again");
   }
   return settings;
 }
@@ -103,8 +105,8 @@ std::shared_ptr<const Codebook> read(const std::shared_ptr<const FileContent>& f
   const std::string type = from.descriptor_type()->str();
   if (!readDescriptorText(type, *codebook) ||
       (codebook->own_descriptor.empty() && codebook->descriptorSize() != from.descriptor_size())) {
-    badCodebook("it holds descriptors of the unknown type '" + type + "' with " + std::to_string(from.descriptor_size()) +
-         " bins: update sks_detector");
+    badCodebook("it holds descriptors of the unknown type '" + shown(type) + "' with " +
+                std::to_string(from.descriptor_size()) + " bins: update sks_detector");
   }
   if (from.descriptor_size() == 0) badCodebook("its descriptor type is not decided; train it again");
   codebook->settings = readSettings(from.settings()->str());

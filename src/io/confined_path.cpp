@@ -7,7 +7,8 @@
 
 #include <sks_detector/error.hpp>
 
-#include "io/utf8.hpp"
+#include "core/settings/shown_text.hpp"
+#include "core/settings/utf8.hpp"
 
 namespace sks {
 namespace {
@@ -15,15 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t longest_path = 4095;  // what Linux takes
-constexpr std::size_t longest_shown = 200;
-constexpr std::size_t longest_name = 100;
+constexpr std::size_t longest_file_name = 100;
 
-/// Text from elsewhere, fit to be printed.
-std::string shown(const std::string& text) {
-  std::string result = text.substr(0, longest_shown);
-  std::replace_if(
-      result.begin(), result.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, '?');
-  return "'" + result + (text.size() > longest_shown ? "..." : "") + "'";
+std::string quoted(const std::string& text) {
+  return "'" + shown(text) + "'";
 }
 
 /// Resolves every link of what exists; the rest is taken as it stands. A link to nothing counts as nothing here, so
@@ -50,36 +46,36 @@ bool inside(const fs::path& path, const fs::path& directory) {
 
 std::string confinedPath(const std::string& path, const std::string& directory) {
   const auto refuse = [&](const std::string& reason) {
-    throw Error(ErrorCode::bad_usage, "the path " + shown(path) + " is refused: " + reason +
-                                          "; give the name of a file in " + shown(directory) +
+    throw Error(ErrorCode::bad_usage, "the path " + quoted(path) + " is refused: " + reason +
+                                          "; give the name of a file in " + quoted(directory) +
                                           ", relative to it or absolute");
   };
-  if (directory.empty()) throw Error(ErrorCode::bad_usage, "the path " + shown(path) + " is refused: no folder is set");
+  if (directory.empty())
+    throw Error(ErrorCode::bad_usage, "the path " + quoted(path) + " is refused: no folder is set");
   if (path.empty()) refuse("it is empty");
   if (path.size() > longest_path) refuse("it has " + std::to_string(path.size()) + " bytes, which is too long");
   if (path.find('\0') != std::string::npos) refuse("it contains a null character");
   if (path[0] == '~') refuse("'~' is not expanded");
   try {
     const fs::path folder = resolved(directory), file = resolved(fs::path(directory) / path);
-    if (!inside(file, folder)) refuse("it leads to " + shown(file.string()) + ", outside of the allowed folder");
+    if (!inside(file, folder)) refuse("it leads to " + quoted(file.string()) + ", outside of the allowed folder");
     if (!file.has_filename() || fs::is_directory(file)) refuse("it names a folder");
     return file.string();
   } catch (const fs::filesystem_error& error) {
-    refuse(error.code().message() + (error.path1().empty() ? "" : " (" + shown(error.path1().string()) + ")"));
+    refuse(error.code().message() + (error.path1().empty() ? "" : " (" + quoted(error.path1().string()) + ")"));
   }
   return {};
 }
 
 void checkFileName(const std::string& name, const std::string& what) {
   const auto refuse = [&](const std::string& reason) {
-    throw Error(ErrorCode::bad_usage, what + " " + shown(name) + " is refused: " + reason);
+    throw Error(ErrorCode::bad_usage, what + " " + quoted(name) + " is refused: " + reason);
   };
   if (name.empty()) refuse("it is empty");
-  if (name.size() > longest_name) refuse("it is longer than " + std::to_string(longest_name) + " bytes");
+  if (name.size() > longest_file_name) refuse("it is longer than " + std::to_string(longest_file_name) + " bytes");
   if (name[0] == '.') refuse("it starts with a dot");
   if (name.find('/') != std::string::npos || name.find('\\') != std::string::npos) refuse("it contains a slash");
-  const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  if (std::any_of(name.begin(), name.end(), control)) refuse("it contains a control character");
+  if (hasControl(name)) refuse("it contains a control character");
   if (!isUtf8(name)) refuse("it is not UTF-8");
 }
 

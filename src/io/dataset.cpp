@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <utility>
 
 #include <Eigen/SVD>
@@ -11,6 +13,7 @@
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
 
+#include "core/settings/name_text.hpp"
 #include "io/file.hpp"
 #include "io/length_unit.hpp"
 #include "io/yaml_map.hpp"
@@ -37,7 +40,7 @@ public:
     data_set_.file = file;
   }
 
-  DataSet read();
+  DataSet read(const std::string& text);
 
 private:
   void readUnits(const YamlMap& map);
@@ -65,12 +68,13 @@ private:
   fs::path folder_;
   MissingClouds missing_;
   DataSet data_set_;
+  std::set<std::string> scene_names_;
 };
 
-DataSet DataSetReader::read() {
-  const YAML::Node root = parseYaml(readTextFile(file_), file_);
+DataSet DataSetReader::read(const std::string& text) {
+  const YAML::Node root = parseYaml(text, file_);
   const YamlMap map = mapOf(root, "the data set", {"name", "units", "max_distance", "training", "scenes", "tests"});
-  data_set_.name = map.text("name");
+  data_set_.name = map.name("name");
   readUnits(map);
   for (const YAML::Node& item : map.list("training")) {
     readTraining(mapOf(item, "a training cloud", {"object", "cloud", "kind", "symmetry", "units"}));
@@ -81,7 +85,7 @@ DataSet DataSetReader::read() {
   addSymmetries();
   for (const YAML::Node& item : map.list("tests")) {
     const YamlMap test = mapOf(item, "a test", {"object", "cloud"});
-    data_set_.tests.push_back({test.text("object"), cloudPath(test)});
+    data_set_.tests.push_back({test.name("object"), cloudPath(test)});
   }
   if (data_set_.training.empty() && data_set_.missing.empty() && data_set_.scenes.empty() && data_set_.tests.empty()) {
     failAt(file_, root, "nothing in it: the data set needs 'training', 'scenes' or 'tests'");
@@ -122,6 +126,7 @@ bool DataSetReader::isMissing(const YamlMap& map) const {
 }
 
 std::string DataSetReader::cloudPath(const YamlMap& map) const {
+  if (map.text("cloud").find('\0') != std::string::npos) map.fail("cloud", "contains a null character");
   if (isBuiltin(map.text("cloud"))) return map.text("cloud");
   const std::string path = resolve(map.text("cloud"));
   if (!isMissing(map)) return path;
@@ -135,7 +140,7 @@ std::string DataSetReader::cloudPath(const YamlMap& map) const {
 
 void DataSetReader::readTraining(const YamlMap& map) {
   TrainingEntry entry;
-  entry.object = map.text("object");
+  entry.object = map.name("object");
   entry.source = fs::path(map.text("cloud")).lexically_normal().string();
   const bool left_out = missing_ == MissingClouds::left_out && isMissing(map);
   entry.path = left_out ? resolve(map.text("cloud")) : cloudPath(map);
@@ -172,20 +177,20 @@ Symmetry DataSetReader::readSymmetry(const YamlMap& map) const {
 
 /// Gives the ground truth the symmetries that the training entries declare.
 void DataSetReader::addSymmetries() {
+  std::map<std::string, std::optional<Symmetry>> symmetries;
+  for (const TrainingEntry& entry : data_set_.training) symmetries[entry.source] = entry.symmetry;
   for (Scene& scene : data_set_.scenes) {
     for (GroundTruth& truth : scene.objects) {
-      for (const TrainingEntry& entry : data_set_.training) {
-        if (entry.source == truth.reference) truth.symmetry = entry.symmetry;
-      }
+      const auto found = symmetries.find(truth.reference);
+      if (found != symmetries.end()) truth.symmetry = found->second;
     }
   }
 }
 
 void DataSetReader::readScene(const YamlMap& map) {
   Scene scene;
-  scene.name = map.text("name");
-  const auto same_name = [&](const Scene& other) { return other.name == scene.name; };
-  if (std::any_of(data_set_.scenes.begin(), data_set_.scenes.end(), same_name)) {
+  scene.name = map.name("name");
+  if (!scene_names_.insert(scene.name).second) {
     map.fail("name", "is '" + scene.name + "', which an earlier scene has: give each scene a name of its own");
   }
   scene.path = cloudPath(map);
@@ -193,11 +198,14 @@ void DataSetReader::readScene(const YamlMap& map) {
     scene.objects.push_back(readGroundTruth(mapOf(item, "an object of scene '" + scene.name + "'",
                                                   {"object", "position", "reference", "pose", "visibility"})));
   }
+  std::set<std::string> with_truth;
+  for (const GroundTruth& truth : scene.objects) with_truth.insert(truth.object);
   for (const YAML::Node& item : map.list("ignore")) {
-    if (!item.IsScalar() || item.Scalar().empty()) failAt(file_, item, "'ignore' must be a list of names of objects");
+    if (!item.IsScalar() || !nameFault(item.Scalar()).empty()) {
+      failAt(file_, item, "'ignore' must be a list of names of objects");
+    }
     scene.ignore.push_back(item.Scalar());
-    const auto named = [&](const GroundTruth& truth) { return truth.object == item.Scalar(); };
-    if (std::any_of(scene.objects.begin(), scene.objects.end(), named)) {
+    if (with_truth.count(item.Scalar()) > 0) {
       warn(item, "'" + item.Scalar() + "' of scene '" + scene.name +
                      "' is ignored although it has ground truth there: that counts neither");
     }
@@ -207,7 +215,7 @@ void DataSetReader::readScene(const YamlMap& map) {
 
 GroundTruth DataSetReader::readGroundTruth(const YamlMap& map) {
   GroundTruth truth;
-  truth.object = map.text("object");
+  truth.object = map.name("object");
   const std::vector<double> position = map.numbers("position", 3);
   truth.position = positionOf(map, "position", Eigen::Vector3d(position[0], position[1], position[2]));
   if (map.has("reference")) truth.reference = fs::path(map.text("reference")).lexically_normal().string();
@@ -252,7 +260,11 @@ Eigen::Isometry3d DataSetReader::readPose(const YamlMap& map) const {
 }  // namespace
 
 DataSet loadDataSet(const std::string& path, MissingClouds missing) {
-  return DataSetReader(path, missing).read();
+  return DataSetReader(path, missing).read(readTextFile(path));
+}
+
+DataSet parseDataSet(const std::string& text, const std::string& path) {
+  return DataSetReader(path, MissingClouds::refused).read(text);
 }
 
 std::vector<TrainingSample> trainingSamples(const DataSet& data_set, const MeshSampler& sampler) {
@@ -273,12 +285,10 @@ std::vector<TrainingSample> trainingSamples(const DataSet& data_set, const MeshS
 
 std::vector<std::string> untrainedObjects(const DataSet& data_set, const std::vector<std::string>& trained) {
   std::vector<std::string> untrained;
-  const auto in = [](const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
-  };
+  std::set<std::string> known(trained.begin(), trained.end());
   for (const Scene& scene : data_set.scenes) {
     for (const GroundTruth& truth : scene.objects) {
-      if (!in(trained, truth.object) && !in(untrained, truth.object)) untrained.push_back(truth.object);
+      if (known.insert(truth.object).second) untrained.push_back(truth.object);
     }
   }
   return untrained;

@@ -75,6 +75,9 @@ enum class MissingClouds {
 ///         key and remedy
 DataSet loadDataSet(const std::string& path, MissingClouds missing = MissingClouds::refused);
 
+/// The same for the text of a file that need not be there yet. @param path where it is to lie
+DataSet parseDataSet(const std::string& text, const std::string& path);
+
 /// Turns a mesh into training views. @param scale metres per unit of the mesh; 0: to be recognised
 using MeshSampler = std::function<std::vector<TrainingSample>(const TrainingEntry& entry, double scale)>;
 

@@ -6,6 +6,8 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/shown_text.hpp"
+
 namespace sks {
 namespace {
 
@@ -14,32 +16,35 @@ constexpr std::streamoff longest_header = 1 << 20;
 
 }  // namespace
 
-char headerLineEnd(std::istream& file) {
-  const auto start = file.tellg();
-  char c = 0;
-  for (std::size_t i = 0; i < longest_line && file.get(c) && c != '\n' && c != '\r'; ++i) {
-  }
-  const bool alone = c == '\r' && file.peek() != '\n';
-  file.clear();
-  file.seekg(start);
-  return alone ? '\r' : '\n';
-}
-
-bool readHeaderLine(std::istream& file, std::vector<std::string>& words, char line_end) {
+bool HeaderLines::next(std::vector<std::string>& words) {
   words.clear();
   std::string line;
-  for (char c = 0; line.size() < longest_line && file.get(c) && c != line_end;) line += c;
-  if (!file || line.size() == longest_line || file.tellg() > longest_header) return false;
+  char c = 0;
+  while (line.size() < longest_line && file_.get(c) && c != '\n' && c != '\r') line += c;
+  if (!file_ || line.size() == longest_line || file_.tellg() > longest_header) return false;
+  if (c == '\r') endAfterReturn();
   std::istringstream split(line);
   for (std::string word; split >> word;) words.push_back(word);
   return true;
+}
+
+void HeaderLines::endAfterReturn() {
+  if (lone_returns_) return;
+  const auto next = file_.peek();
+  file_.clear();  // the file may end here
+  if (next == '\n') {
+    file_.get();
+  } else {
+    lone_returns_ = true;
+  }
 }
 
 std::uint64_t headerNumber(const std::string& text, const std::string& what) {
   std::uint64_t value = 0;
   const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
   if (result.ec != std::errc() || result.ptr != text.data() + text.size()) {
-    throw Error(ErrorCode::bad_data, "its header says " + what + " '" + text + "', which is no whole number");
+    throw Error(ErrorCode::bad_data,
+                "its header says " + shown(what) + " '" + shown(text) + "', which is no whole number");
   }
   return value;
 }

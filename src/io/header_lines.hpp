@@ -11,12 +11,20 @@
 
 namespace sks {
 
-/// What ends the lines of a file, by its first line: a line feed, perhaps after a carriage return, or a carriage return
-/// alone. Stays at the file's place.
-char headerLineEnd(std::istream& file);
+/// Goes through the lines of a header, whether they end with LF, CR or both, also mixed.
+class HeaderLines {
+public:
+  explicit HeaderLines(std::istream& file) : file_(file) {}
 
-/// Splits the next line at blanks; false at the file's end or where there is too much text for a header.
-bool readHeaderLine(std::istream& file, std::vector<std::string>& words, char line_end = '\n');
+  /// Splits the next line at blanks; false at the file's end or where there is too much text for a header.
+  bool next(std::vector<std::string>& words);
+
+private:
+  void endAfterReturn();
+
+  std::istream& file_;
+  bool lone_returns_ = false;  // lines end with CR alone: a byte 10 after the last one belongs to binary data
+};
 
 /// A whole number of a header. @throws Error(bad_data) naming `what`
 std::uint64_t headerNumber(const std::string& text, const std::string& what);

@@ -15,11 +15,19 @@ bool startsWith(const std::string& bytes, const std::string& signature) {
   return bytes.compare(0, signature.size(), signature) == 0;
 }
 
+/// A remedy for what some data sets hold.
+void refuseTiff(const std::string& bytes) {
+  if (startsWith(bytes, std::string("II*\0", 4)) || startsWith(bytes, std::string("MM\0*", 4))) {
+    throw CodecError("it is a TIFF file: convert it to PNG, for example by `mogrify -format png *.tif`");
+  }
+}
+
 ColorImage decodeAny(const std::string& bytes) {
   if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return decodeColorPng(bytes);
   if (startsWith(bytes, "\xff\xd8\xff")) return decodeJpeg(bytes);
   if (startsWith(bytes, "BM")) return decodeBmp(bytes);
   if (isTga(bytes)) return decodeTga(bytes);
+  refuseTiff(bytes);
   throw CodecError("it is no PNG, JPEG, BMP or TGA file; save it as PNG");
 }
 
@@ -51,6 +59,7 @@ ColorImage decodeColorImage(const std::string& bytes) {
 DepthImage readDepthImage(const std::string& path) {
   return readWith(path, [](const std::string& bytes) {
     if (startsWith(bytes, "\x89PNG\r\n\x1a\n")) return decodeDepthPng(bytes);
+    refuseTiff(bytes);
     throw CodecError("it is no PNG file");
   });
 }

@@ -4,10 +4,12 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/shown_text.hpp"
 #include "io/header_lines.hpp"
 #include "io/lzf.hpp"
 #include "io/number_text.hpp"
 #include "io/pcd_file.hpp"
+#include "io/point_colors.hpp"
 #include "io/point_fields.hpp"
 
 namespace sks {
@@ -24,7 +26,10 @@ constexpr std::uint64_t best_compression = 88;
 
 /// Writes a number in its binary form; false where the text is no number.
 bool storeNumber(const std::string& text, const PcdField& field, std::uint8_t* to) {
-  if (field.type == 'F') {
+  // a packed colour that is written as the whole number that its four bytes make, whatever its type is said to be
+  const bool whole = packedColorField({field.name}) && field.size == 4 && field.count == 1 &&
+                     text.find_first_not_of("0123456789") == std::string::npos;
+  if (field.type == 'F' && !whole) {
     double value = 0;
     if (!parseNumber(text, value)) return false;
     const float narrow = float(value);
@@ -46,7 +51,8 @@ Bytes readAscii(std::istream& file, const PcdHeader& header) {
     for (const PcdField& field : header.fields) {
       for (std::uint32_t i = 0; i < field.count; ++i, to += field.size) {
         if (!(file >> word)) fail("it is truncated: " + std::to_string(point) + " of its points are there");
-        if (!storeNumber(word, field, to)) fail("point " + std::to_string(point) + " holds '" + word + "', no number");
+        if (!storeNumber(word, field, to))
+          fail("point " + std::to_string(point) + " holds '" + shown(word) + "', no number");
       }
     }
   }
@@ -127,7 +133,7 @@ Cloud readPcd(std::istream& file, std::uint64_t file_size, double scale) {
   block.size = data.size();
   std::uint32_t offset = 0;
   for (const PcdField& field : header.fields) {
-    block.fields.push_back({field.name, offset, pointFieldType(field)});
+    block.fields.push_back({field.name, offset, pointFieldType(field), field.count});
     offset += field.size * field.count;
   }
   Cloud cloud = toCloud(block, scale);

@@ -5,6 +5,7 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/shown_text.hpp"
 #include "core/settings/value_text.hpp"
 #include "io/header_lines.hpp"
 #include "io/pcd_file.hpp"
@@ -28,8 +29,9 @@ const Words& entry(const Entries& entries, const std::string& name) {
 /// Every line up to DATA by its first word.
 Entries readEntries(std::istream& file) {
   Entries entries;
+  HeaderLines lines(file);
   for (Words words; entries.count("DATA") == 0;) {
-    if (!readHeaderLine(file, words)) badPcdHeader("has no line DATA");
+    if (!lines.next(words)) badPcdHeader("has no line DATA");
     if (words.empty() || words[0][0] == '#') continue;
     const std::string name = words[0] == "COLUMNS" ? "FIELDS" : words[0];
     entries[name] = {words.begin() + 1, words.end()};
@@ -50,8 +52,9 @@ std::vector<PcdField> readFields(const Entries& entries) {
     const std::uint64_t size = headerNumber(sizes[i], "SIZE"), count = headerNumber(counts[i], "COUNT");
     const bool real = types[i] == "F" && (size == 4 || size == 8);
     const bool whole = (types[i] == "I" || types[i] == "U") && (size == 1 || size == 2 || size == 4 || size == 8);
-    if (!real && !whole) badPcdHeader("says TYPE " + types[i] + " of SIZE " + sizes[i] + " for field '" + names[i] + "'");
-    if (count < 1 || count > 65536) badPcdHeader("says COUNT " + counts[i] + " for field '" + names[i] + "'");
+    const std::string of_field = " for field '" + shown(names[i]) + "'";
+    if (!real && !whole) badPcdHeader("says TYPE " + shown(types[i]) + " of SIZE " + sizes[i] + of_field);
+    if (count < 1 || count > 65536) badPcdHeader("says COUNT " + counts[i] + of_field);
     fields.push_back({names[i], types[i][0], std::uint32_t(size), std::uint32_t(count)});
   }
   return fields;
@@ -93,7 +96,7 @@ PcdHeader readPcdHeader(std::istream& file) {
   const std::uint64_t points = headerNumber(entry(entries, "POINTS")[0], "POINTS");
   if (std::max({width, height, points}) > 4294967295u || width * height != points) {
     badPcdHeader("says WIDTH " + std::to_string(width) + ", HEIGHT " + std::to_string(height) + " and POINTS " +
-         std::to_string(points) + ", which do not fit");
+                 std::to_string(points) + ", which do not fit");
   }
   header.width = std::uint32_t(width);
   header.height = std::uint32_t(height);
@@ -101,7 +104,7 @@ PcdHeader readPcdHeader(std::istream& file) {
   const std::string& data = entry(entries, "DATA")[0];
   const Words kinds = {"ascii", "binary", "binary_compressed"};
   const auto kind = std::find(kinds.begin(), kinds.end(), data);
-  if (kind == kinds.end()) badPcdHeader("says DATA " + data + "; known are ascii, binary and binary_compressed");
+  if (kind == kinds.end()) badPcdHeader("says DATA " + shown(data) + "; known are ascii, binary and binary_compressed");
   header.data = PcdData(kind - kinds.begin());
   return header;
 }

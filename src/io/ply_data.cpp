@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <sks_detector/error.hpp>
 
 #include "io/ply_values.hpp"
+#include "io/point_colors.hpp"
 
 namespace sks {
 namespace {
@@ -27,32 +34,62 @@ std::array<std::size_t, 3> coordinates(const PlyElement& vertices) {
   return indices;
 }
 
-/// Places of red, green and blue among the properties; incomplete where there is no colour.
-std::array<std::size_t, 3> channels(const PlyElement& vertices) {
-  auto indices = plyIndices<3>(vertices, {"red", "green", "blue"});
-  if (!plyComplete(indices)) indices = plyIndices<3>(vertices, {"diffuse_red", "diffuse_green", "diffuse_blue"});
-  for (const std::size_t i : indices) {
-    if (i != ply_absent && vertices.properties[i].type != PointField::uint8) {
-      badPly("property '" + vertices.properties[i].name + "' of its vertices must be uchar");
-    }
-  }
-  return indices;
+std::vector<std::string> namesOfValues(const PlyElement& element) {
+  std::vector<std::string> names;
+  for (const PlyProperty& property : element.properties) names.push_back(property.list ? "" : property.name);
+  return names;
 }
 
+/// The colours of vertices, value by value.
+class VertexColors {
+public:
+  explicit VertexColors(const PlyElement& vertices)
+      : packed_(packedColorField(namesOfValues(vertices))), places_(colorChannelFields(namesOfValues(vertices))) {
+    if (packed_ && vertices.properties[*packed_].type < PointField::int32) packed_.reset();  // no room for three bytes
+    if (packed_) as_float_ = vertices.properties[*packed_].type == PointField::float32;
+    for (std::size_t i = 0; places_ && i < 3; ++i) types_[i] = vertices.properties[(*places_)[i]].type;
+  }
+
+  void add(const std::vector<double>& row) {
+    if (packed_) {
+      colors_.push_back(unpackedColor(bitsOf(row[*packed_])));
+    } else if (places_) {
+      channels_.emplace_back(float(row[(*places_)[0]]), float(row[(*places_)[1]]), float(row[(*places_)[2]]));
+    }
+  }
+
+  std::vector<Rgb> take() { return packed_ ? std::move(colors_) : colorsOfChannels(channels_, types_); }
+
+private:
+  std::uint32_t bitsOf(double value) const {
+    if (!as_float_) return std::abs(value) < 4294967296.0 ? std::uint32_t(std::int64_t(value)) : 0;
+    const auto narrow = float(value);
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &narrow, sizeof(bits));
+    return bits;
+  }
+
+  std::optional<std::size_t> packed_;
+  std::optional<std::array<std::size_t, 3>> places_;
+  std::array<std::uint8_t, 3> types_{};
+  bool as_float_ = false;
+  std::vector<Eigen::Vector3f> channels_;
+  std::vector<Rgb> colors_;
+};
+
 void readVertices(PlyValues& values, const PlyElement& element, double scale, Cloud& cloud) {
-  const auto axes = coordinates(element), rgb = channels(element);
-  const bool color = plyComplete(rgb);
+  const auto axes = coordinates(element);
+  VertexColors colors(element);
   cloud.width = std::uint32_t(element.count);
   cloud.points.reserve(element.count);
-  if (color) cloud.colors.reserve(element.count);
-  const auto channel = [](double value) { return std::uint8_t(std::clamp(value, 0.0, 255.0)); };
   PlyInstance instance;
   for (std::uint64_t i = 0; i < element.count; ++i) {
     values.read(element, instance);
     const std::vector<double>& row = instance.values;
     cloud.points.emplace_back(float(scale * row[axes[0]]), float(scale * row[axes[1]]), float(scale * row[axes[2]]));
-    if (color) cloud.colors.push_back({channel(row[rgb[0]]), channel(row[rgb[1]]), channel(row[rgb[2]])});
+    colors.add(row);
   }
+  cloud.colors = colors.take();
 }
 
 void readCamera(PlyValues& values, const PlyElement& element, double scale, Cloud& cloud) {

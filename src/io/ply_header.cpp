@@ -4,6 +4,7 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/shown_text.hpp"
 #include "io/header_lines.hpp"
 #include "io/ply_file.hpp"
 
@@ -25,14 +26,14 @@ PointField::Type typeOf(const std::string& name) {
       {"float", PointField::float32},  {"float32", PointField::float32}, {"double", PointField::float64},
       {"float64", PointField::float64}};
   const auto found = types.find(name);
-  if (found == types.end()) badPlyHeader("has a property of the unknown type '" + name + "'");
+  if (found == types.end()) badPlyHeader("has a property of the unknown type '" + shown(name) + "'");
   return found->second;
 }
 
 PlyFormat formatOf(const std::string& name) {
   const Words names = {"ascii", "binary_little_endian", "binary_big_endian"};
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) badPlyHeader("has the unknown format '" + name + "'");
+  if (found == names.end()) badPlyHeader("has the unknown format '" + shown(name) + "'");
   return PlyFormat(found - names.begin());
 }
 
@@ -53,9 +54,9 @@ std::string joined(Words::const_iterator word, Words::const_iterator end) {
 PlyHeader readPlyHeader(std::istream& file) {
   PlyHeader header;
   bool has_format = false;
-  const char line_end = headerLineEnd(file);
+  HeaderLines lines(file);
   for (Words words; words.empty() || words[0] != "end_header";) {
-    if (!readHeaderLine(file, words, line_end)) badPlyHeader("has no line end_header");
+    if (!lines.next(words)) badPlyHeader("has no line end_header");
     const std::string keyword = words.empty() ? "" : words[0];
     if (keyword == "format" && words.size() > 1) {
       header.format = formatOf(words[1]);

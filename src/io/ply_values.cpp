@@ -8,6 +8,7 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/shown_text.hpp"
 #include "io/header_lines.hpp"
 #include "io/number_text.hpp"
 
@@ -55,7 +56,7 @@ template <typename T>
 double PlyValues::number() {
   if (format_ == PlyFormat::ascii) {
     const double value = word();
-    if (std::is_integral_v<T> && !std::isfinite(value)) badValues("it holds '" + word_ + "' for a whole number");
+    if (std::is_integral_v<T> && !std::isfinite(value)) badValues("it holds '" + shown(word_) + "' for a whole number");
     return value;
   }
   char bytes[sizeof(T)];
@@ -69,7 +70,7 @@ double PlyValues::number() {
 double PlyValues::word() {
   double value = 0;
   if (!(file_ >> word_)) badValues("it is truncated");
-  if (!parseNumber(word_, value)) badValues("it holds '" + word_ + "', no number");
+  if (!parseNumber(word_, value)) badValues("it holds '" + shown(word_) + "', no number");
   return value;
 }
 

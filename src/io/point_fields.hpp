@@ -16,7 +16,11 @@ struct PointField {
   std::string name;
   std::uint32_t offset = 0;  ///< from the point's first byte
   std::uint8_t type = 0;
+  std::uint32_t count = 1;  ///< values; 0 counts as 1
 };
+
+/// Bytes of one value of a type; 0 for one that is unknown.
+std::size_t sizeOfType(std::uint8_t type);
 
 /// Points in raw memory, as PCLPointCloud2 and sensor_msgs/PointCloud2 hold them.
 struct PointBlock {
@@ -30,8 +34,8 @@ struct PointBlock {
   std::size_t size = 0;  ///< bytes at `data`
 };
 
-/// Positions (float or double x, y, z) and colour (`rgb` or `rgba`, packed into four bytes), each checked to lie within
-/// the data before it is read.
+/// Positions (float or double x, y, z) and colour as point_colors.hpp has it, each checked to lie within the data
+/// before it is read.
 /// @param scale factor to metres
 /// @throws Error(bad_data) saying what is wrong with the fields or lengths
 Cloud toCloud(const PointBlock& block, double scale = 1.0);

@@ -8,7 +8,10 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/name_text.hpp"
 #include "core/settings/nearest_name.hpp"
+#include "core/settings/shown_text.hpp"
+#include "io/number_text.hpp"
 
 namespace sks {
 namespace {
@@ -16,7 +19,7 @@ namespace {
 /// A finite number; NaN for anything else.
 double finiteNumber(const YAML::Node& node) {
   double value = 0;
-  return node.IsScalar() && YAML::convert<double>::decode(node, value) && std::isfinite(value) ? value : std::nan("");
+  return node.IsScalar() && parseNumber(node.Scalar(), value) && std::isfinite(value) ? value : std::nan("");
 }
 
 }  // namespace
@@ -32,8 +35,7 @@ YamlMap::YamlMap(const YAML::Node& node, std::string file, std::string what, con
   for (const auto& item : node) {
     const std::string key = item.first.IsScalar() ? item.first.Scalar() : "?";
     if (std::find(known.begin(), known.end(), key) == known.end()) {
-      failAt(file_, item.first,
-             "unknown key '" + key + "' in " + what_ + "; did you mean '" + nearestName(key, known) + "'?");
+      failAt(file_, item.first, "unknown key '" + shown(key) + "' in " + what_ + "; " + nearestNameHint(key, known));
     }
     if (!seen.insert(key).second) failAt(file_, item.first, "key '" + key + "' stands twice in " + what_);
   }
@@ -57,6 +59,12 @@ std::string YamlMap::text(const std::string& key) const {
   const YAML::Node value = at(key);
   if (!value.IsScalar() || value.Scalar().empty()) fail(key, "must be text");
   return value.Scalar();
+}
+
+std::string YamlMap::name(const std::string& key) const {
+  const std::string value = text(key), fault = nameFault(value);
+  if (!fault.empty()) fail(key, "is '" + shown(value, 60) + "', which is refused: " + fault);
+  return value;
 }
 
 double YamlMap::number(const std::string& key) const {

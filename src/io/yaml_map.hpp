@@ -26,6 +26,8 @@ public:
 
   /// Text that is not empty.
   std::string text(const std::string& key) const;
+  /// Text that is fit to be a name (nameFault()).
+  std::string name(const std::string& key) const;
   /// A finite number.
   double number(const std::string& key) const;
   /// `count` finite numbers.

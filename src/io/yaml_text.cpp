@@ -8,6 +8,9 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/number_format.hpp"
+#include "core/settings/utf8.hpp"
+
 namespace sks {
 namespace {
 
@@ -15,6 +18,46 @@ constexpr int deepest = 400;  // files of ours need 5, the library since 0.7 tak
 
 [[noreturn]] void fail(const std::string& origin, int line, const std::string& reason) {
   throw Error(ErrorCode::bad_file, origin + ":" + std::to_string(line + 1) + ": " + reason);
+}
+
+int lineAt(const std::string& text, std::size_t place) {
+  return int(std::count(text.begin(), text.begin() + std::ptrdiff_t(place), '\n'));
+}
+
+bool beginsWith(const std::string& text, const std::string& with) {
+  return text.compare(0, with.size(), with) == 0;
+}
+
+/// The text without the mark that some editors put before UTF-8; other encodings are refused, since names of them would
+/// reach messages and results.
+std::string asUtf8(const std::string& text, const std::string& origin) {
+  const std::size_t first_null = text.find('\0');
+  if (beginsWith(text, "\xff\xfe") || beginsWith(text, "\xfe\xff") || first_null < 4) {
+    fail(origin, 0,
+         "the file is UTF-16 or UTF-32, not UTF-8: save it as UTF-8, or convert it by iconv -f UTF-16 -t UTF-8");
+  }
+  if (first_null != std::string::npos) fail(origin, lineAt(text, first_null), "not a text file: a null character");
+  const std::size_t wrong = firstNoUtf8(text);
+  if (wrong < text.size()) {
+    fail(origin, lineAt(text, wrong),
+         formatted("the byte 0x%02x is not UTF-8: save the file as UTF-8, or convert it by iconv -f LATIN1 -t UTF-8",
+                   unsigned(static_cast<unsigned char>(text[wrong]))));
+  }
+  return beginsWith(text, "\xef\xbb\xbf") ? text.substr(3) : text;
+}
+
+/// The line of a tab that may be why YAML makes no sense at a line: one on it, else one that an earlier line begins
+/// with; -1 where there is none.
+int lineOfTab(const std::string& text, int at_line) {
+  std::istringstream lines(text);
+  int found = -1;
+  std::string line;
+  for (int number = 0; number <= at_line && std::getline(lines, line); ++number) {
+    const std::size_t tab = line.find('\t');
+    if (tab == std::string::npos) continue;
+    if (number == at_line || line.find_first_not_of(" \t") > tab) found = number;
+  }
+  return found;
 }
 
 /// Refuses a second document.
@@ -57,7 +100,8 @@ void checkNesting(const std::string& text, const std::string& origin) {
 
 }  // namespace
 
-YAML::Node parseYaml(const std::string& text, const std::string& origin) {
+YAML::Node parseYaml(const std::string& raw_text, const std::string& origin) {
+  const std::string text = asUtf8(raw_text, origin);
   checkNesting(text, origin);
   try {
     std::istringstream stream(text);
@@ -67,7 +111,9 @@ YAML::Node parseYaml(const std::string& text, const std::string& origin) {
     }
     return YAML::Load(text);
   } catch (const YAML::Exception& error) {
-    fail(origin, error.mark.line, "not a YAML file: " + error.msg);
+    const int tab = lineOfTab(text, error.mark.line);
+    if (tab >= 0) fail(origin, tab, "a tab, which is no indentation in YAML: use spaces");
+    fail(origin, std::max(0, error.mark.line), "not a YAML file: " + error.msg);
   }
 }
 

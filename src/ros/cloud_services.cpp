@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/cloud_services.hpp"
 
-#include <cstdio>
 #include <filesystem>
 
 #include <ros/console.h>
@@ -11,6 +10,7 @@
 
 #include "core/capture/tabletop.hpp"
 #include "core/capture/view_quality.hpp"
+#include "core/settings/number_format.hpp"
 #include "core/settings/value_text.hpp"
 #include "io/confined_path.hpp"
 
@@ -27,23 +27,20 @@ std::vector<std::uint32_t> findObject(const sks::Cloud& cloud) {
   const sks::Tabletop tabletop = sks::findTabletop(cloud);
   const std::size_t count = tabletop.objects.size();
   if (count == 1) return tabletop.objects[0];
-  char plane[100];
-  std::snprintf(plane, sizeof(plane), "the dominant plane (%.2f m^2, %.2f m from the camera)", tabletop.area,
-                double(tabletop.plane.absDistance(cloud.sensor_origin)));
+  const std::string plane = sks::formatted("the dominant plane (%.2f m^2, %.2f m from the camera)", tabletop.area,
+                                           double(tabletop.plane.absDistance(cloud.sensor_origin)));
   if (count == 0) {
-    throw Error(ErrorCode::bad_data, std::string("no object stands on ") + plane +
-                                         ": put the object on a free table, in view of the camera");
+    throw Error(ErrorCode::bad_data,
+                "no object stands on " + plane + ": put the object on a free table, in view of the camera");
   }
   throw Error(ErrorCode::bad_data,
               std::to_string(count) + " objects stand on " + plane + ": leave only the one that is to be captured");
 }
 
 std::string describe(const sks::ViewQuality& quality) {
-  char text[200];
-  std::snprintf(text, sizeof(text), "%zu points, %.0f x %.0f x %.0f mm, %.1f mm apart", quality.points,
-                1000.0 * quality.extent.x(), 1000.0 * quality.extent.y(), 1000.0 * quality.extent.z(),
-                1000.0 * quality.spacing);
-  std::string description = text;
+  std::string description =
+      sks::formatted("%zu points, %.0f x %.0f x %.0f mm, %.1f mm apart", quality.points, 1000.0 * quality.extent.x(),
+                     1000.0 * quality.extent.y(), 1000.0 * quality.extent.z(), 1000.0 * quality.spacing);
   if (quality.remarks.empty()) return description + "; a good view";
   for (const std::string& remark : quality.remarks) description += "; " + remark;
   return description;

@@ -10,6 +10,7 @@
 
 #include "core/pipeline/codebook_edit.hpp"
 #include "core/settings/nearest_name.hpp"
+#include "core/settings/shown_text.hpp"
 #include "ros/folders.hpp"
 
 namespace sks_detector {
@@ -64,10 +65,9 @@ void CodebookServices::removeObject(const RemoveObject::Request& request, Remove
     for (const sks::TrainingEntry& entry : *entries) known.push_back(entry.object);
   }
   if (!contains(known, request.object)) {
-    const std::string hint =
-        known.empty() ? "there are none" : "did you mean '" + sks::nearestName(request.object, known) + "'?";
-    throw Error(ErrorCode::bad_usage,
-                "there is no object '" + request.object + "' in the codebook or among the captured views; " + hint);
+    throw Error(ErrorCode::bad_usage, "there is no object '" + sks::shown(request.object) +
+                                          "' in the codebook or among the captured views; " +
+                                          sks::nearestNameHint(request.object, known));
   }
   // what may fail comes before what cannot be undone
   const auto rest = is_trained ? sks::withoutObject(detector->codebook(), request.object) : nullptr;

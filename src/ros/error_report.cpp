@@ -3,6 +3,8 @@
 
 #include <ros/console.h>
 
+#include "core/settings/shown_text.hpp"
+
 namespace sks_detector {
 namespace {
 
@@ -12,12 +14,12 @@ constexpr std::chrono::seconds new_message_period(1), same_message_period(30);
 
 void ErrorReport::error(const std::string& kind, const std::string& message) {
   if (!isDue(kind, message)) return;
-  ROS_ERROR_STREAM(message);
+  ROS_ERROR_STREAM(sks::shownMessage(message));
   board_.setError(message);
 }
 
 void ErrorReport::warning(const std::string& kind, const std::string& message) {
-  if (isDue(kind, message)) ROS_WARN_STREAM(message);
+  if (isDue(kind, message)) ROS_WARN_STREAM(sks::shownMessage(message));
 }
 
 bool ErrorReport::isDue(const std::string& kind, const std::string& message) {

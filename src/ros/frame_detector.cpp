@@ -25,15 +25,6 @@ sks::Cloud pointsCloud(std::vector<Eigen::Vector3f> points) {
   return cloud;
 }
 
-/// Neighbourhoods in a dense cloud cost the square of its size: minutes for 20 million points.
-void checkSize(const sensor_msgs::PointCloud2& message, int max_points) {
-  const std::uint64_t points = std::uint64_t(message.width) * message.height;
-  if (points <= std::uint64_t(max_points)) return;
-  throw sks::Error(sks::ErrorCode::bad_data, "it has " + std::to_string(points) +
-                                                 " points, more than ~max_points = " + std::to_string(max_points) +
-                                                 ": thin it, by pcl/VoxelGrid for example, or set ~max_points");
-}
-
 std::vector<sks::Rgb> voteColors(const sks::Inspection& inspection, const std::vector<std::string>& objects) {
   std::vector<sks::Rgb> palette, colors;
   for (const std::string& object : objects) palette.push_back(objectColor(object));
@@ -44,8 +35,7 @@ std::vector<sks::Rgb> voteColors(const sks::Inspection& inspection, const std::v
 }  // namespace
 
 sks::Cloud FrameDetector::read(const sensor_msgs::PointCloud2& message, const NodeSettings& settings) const {
-  checkSize(message, settings.max_points);
-  sks::Cloud cloud = toCloud(message);
+  sks::Cloud cloud = receivedCloud(message, settings.max_points);
   if (settings.sensor_frame.empty()) return cloud;
   const Eigen::Isometry3d T_cloud_sensor =
       transforms_.lookup(withoutSlash(message.header.frame_id), withoutSlash(settings.sensor_frame),

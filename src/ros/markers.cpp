@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include <tf2_eigen/tf2_eigen.h>
+
+#include "core/settings/number_format.hpp"
 
 namespace sks_detector {
 namespace {
@@ -84,9 +85,7 @@ void addLabel(Marker marker, const Detection& detection, visualization_msgs::Mar
   marker.type = Marker::TEXT_VIEW_FACING;
   marker.scale.z = std::max(0.02, 0.2 * sizeOf(detection).maxCoeff());
   marker.color = toMessage({255, 255, 255});
-  char score[16];
-  std::snprintf(score, sizeof(score), " %.2f", double(detection.score));
-  marker.text = detection.object + score;
+  marker.text = detection.object + sks::formatted(" %.2f", double(detection.score));
   array.markers.push_back(std::move(marker));
 }
 

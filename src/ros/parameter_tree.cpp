@@ -5,6 +5,7 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/shown_text.hpp"
 #include "core/settings/value_text.hpp"
 
 namespace sks_detector {
@@ -79,8 +80,9 @@ TreeReading overlayParameters(XmlRpcValue tree, const std::string& name_space, s
       continue;
     }
     if (!overlay.isKey(leaf.key)) {
-      reading.warnings.push_back("unknown parameter " + name + " is ignored: did you mean " +
-                                 nameOf(overlay.nearest(leaf.key)) + "?");
+      const std::string nearest = overlay.nearest(leaf.key);
+      reading.warnings.push_back("unknown parameter " + sks::shown(name) + " is ignored" +
+                                 (nearest.empty() ? "" : ": did you mean " + nameOf(nearest) + "?"));
       continue;
     }
     const sks::Assignment wanted = overlay.resolve(leaf.key, leaf.text);

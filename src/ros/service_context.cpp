@@ -10,6 +10,8 @@
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/error.hpp>
 
+#include "core/settings/shown_text.hpp"
+#include "io/codebook_layout.hpp"
 #include "io/confined_path.hpp"
 #include "ros/folders.hpp"
 
@@ -47,9 +49,8 @@ ServiceContext::ServiceContext(DetectorSlot& detector_slot, StatusBoard& status_
 
 std::string ServiceContext::codebookPath(const std::string& path) const {
   std::string file = sks::confinedPath(path, codebook_directory);
-  if (fs::path(file).extension() == ".sks") return file;
-  throw sks::Error(sks::ErrorCode::bad_usage,
-                   "'" + file + "' is not called like a codebook; let its name end with .sks");
+  sks::checkCodebookName(file);
+  return file;
 }
 
 void ServiceContext::checkOverwriting(const std::string& path, bool overwrite, const sks::Codebook* same) const {
@@ -81,7 +82,7 @@ void ServiceContext::updateStatus() {
     }
     board.setCaptured(objects);
   } catch (const std::exception& error) {
-    const std::string message = std::string("the captured views cannot be used: ") + error.what();
+    const std::string message = sks::shownMessage(std::string("the captured views cannot be used: ") + error.what());
     ROS_ERROR_STREAM(message);
     board.setError(message);
   }

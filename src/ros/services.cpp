@@ -14,6 +14,7 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/shown_text.hpp"
 #include "ros/cloud_services.hpp"
 #include "ros/codebook_services.hpp"
 #include "ros/service_context.hpp"
@@ -90,7 +91,7 @@ private:
     } catch (const std::bad_alloc&) {
       return "there is not enough memory for this";
     } catch (const std::exception& error) {
-      return std::string(error.what()).substr(0, longest_failure);
+      return sks::shown(error.what(), longest_failure);
     } catch (...) {
       return "an unknown error";
     }

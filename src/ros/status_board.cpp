@@ -5,6 +5,8 @@
 
 #include <ros/time.h>
 
+#include "core/settings/shown_text.hpp"
+
 namespace sks_detector {
 namespace {
 
@@ -38,8 +40,8 @@ void StatusBoard::trainingStarted() {
 void StatusBoard::trainingProgress(const sks::ProgressState& progress) {
   change([&] {
     const std::string of = progress.total > 0 ? " of " + std::to_string(progress.total) : "";
-    status_.progress =
-        progress.stage + " " + std::to_string(progress.done) + of + (progress.item.empty() ? "" : ": " + progress.item);
+    status_.progress = progress.stage + " " + std::to_string(progress.done) + of +
+                       (progress.item.empty() ? "" : ": " + sks::shown(progress.item));
     status_.progress_fraction = progress.total > 0 ? float(progress.done) / float(progress.total) : 0;
     if (Clock::now() - progress_published_ < progress_period) return false;
     progress_published_ = Clock::now();
@@ -85,7 +87,8 @@ void StatusBoard::setCodebookListener(std::function<void()> listener) {
   codebook_listener_ = std::move(listener);
 }
 
-void StatusBoard::setError(const std::string& message) {
+void StatusBoard::setError(const std::string& text) {
+  const std::string message = sks::shownMessage(text);
   change([&] {
     const bool same = std::exchange(status_.last_error, message) == message;
     status_.last_error_stamp = ros::Time::now();

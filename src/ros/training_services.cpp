@@ -12,6 +12,8 @@
 #include <sks_detector/trainer.hpp>
 
 #include "core/pipeline/stopwatch.hpp"
+#include "core/settings/name_text.hpp"
+#include "core/settings/shown_text.hpp"
 #include "core/settings/value_text.hpp"
 #include "io/file.hpp"
 #include "ros/folders.hpp"
@@ -35,6 +37,7 @@ void TrainingServices::work(const Train::Request& request, const sks::Progress& 
   context_.board.trainingStarted();
   const std::shared_ptr<void> at_end(nullptr, [this](void*) { context_.board.trainingEnded(); });
 
+  if (!request.name.empty()) sks::checkName(request.name, "the codebook's name");
   const sks::Settings settings = settingsOf(request);
   std::string output;
   if (!request.output.empty()) {  // before training takes its time
@@ -45,11 +48,11 @@ void TrainingServices::work(const Train::Request& request, const sks::Progress& 
   }
   sks::MeshTraining mesh_training;
   mesh_training.threads = settings.threads;
-  const auto warn = [](const std::string& warning) { ROS_WARN_STREAM(warning); };
+  const auto warn = [](const std::string& warning) { ROS_WARN_STREAM(sks::shownMessage(warning)); };
   const std::string& folder = context_.dataset_directory;
   const TrainingSet set = gatherTrainingSet(request.dataset, request.captured, context_.captured, folder,
                                             sks::meshSampler(mesh_training, warn, folder));
-  for (const std::string& warning : set.warnings) ROS_WARN_STREAM(warning);
+  for (const std::string& warning : set.warnings) warn(warning);
   warnings = set.warnings;
 
   const std::string name = request.name.empty() ? set.name : request.name;
@@ -76,7 +79,7 @@ sks::Settings TrainingServices::settingsOf(const Train::Request& request) const 
   for (const std::string& text : request.settings) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos) {
-      throw sks::Error(sks::ErrorCode::bad_usage, "settings: '" + text + "' is not of the form key=value");
+      throw sks::Error(sks::ErrorCode::bad_usage, "settings: '" + sks::shown(text) + "' is not of the form key=value");
     }
     sks::setSetting(settings, text.substr(0, equals), text.substr(equals + 1), &warnings);
   }

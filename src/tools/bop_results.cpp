@@ -2,9 +2,10 @@
 #include "tools/bop_results.hpp"
 
 #include <algorithm>
-#include <cstdio>
 
 #include <sks_detector/error.hpp>
+
+#include "core/settings/number_format.hpp"
 
 namespace sks::tools {
 namespace {
@@ -45,9 +46,7 @@ void checkFrame(const DataSet& data_set, const Detection& detection) {
 std::string numbers(const double* values, int count) {
   std::string text;
   for (int i = 0; i < count; ++i) {
-    char number[32];
-    std::snprintf(number, sizeof(number), "%s%.8g", i > 0 ? " " : "", values[i]);
-    text += number;
+    text += formatted("%s%.8g", i > 0 ? " " : "", values[i]);
   }
   return text;
 }

@@ -72,7 +72,7 @@ void addClassify(CLI::App& app) {
   command->add_option("--dataset,-d", options->dataset, "data set file (YAML) with tests")
       ->required()
       ->type_name("FILE");
-  options->method.add(*command);
+  options->method.add(*command, MethodTask::isolated_objects);
   options->codebook.add(*command);
   options->settings.add(*command);
   options->json.add(*command);

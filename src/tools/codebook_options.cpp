@@ -5,6 +5,7 @@
 #include <sks_detector/error.hpp>
 #include <sks_detector/trainer.hpp>
 
+#include "io/codebook_layout.hpp"
 #include "io/file.hpp"
 
 namespace sks::tools {
@@ -22,7 +23,9 @@ std::shared_ptr<const Codebook> CodebookOptions::read() const {
 }
 
 void CodebookOptions::check() const {
-  if (!save_.empty()) checkWritable(save_);
+  if (save_.empty()) return;
+  checkCodebookName(save_);
+  checkWritable(save_);
 }
 
 std::shared_ptr<const Codebook> CodebookOptions::train(const DataSet& data_set, const Settings& settings,

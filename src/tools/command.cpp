@@ -9,6 +9,7 @@
 
 #include "core/settings/detector_table.hpp"
 #include "core/settings/settings_overlay.hpp"
+#include "core/settings/shown_text.hpp"
 #include "core/settings/threads.hpp"
 #include "io/file.hpp"
 
@@ -33,7 +34,8 @@ void SettingsOptions::apply(Settings& settings, baselines::MethodSettings* own) 
   for (const std::string& set : sets_) {
     const std::size_t equals = set.find('=');
     if (equals == std::string::npos) {
-      throw Error(ErrorCode::bad_usage, "--set " + set + ": expected key=value, e.g. --set keypoints.discard=0.5");
+      throw Error(ErrorCode::bad_usage,
+                  "--set " + shown(set) + ": expected key=value, e.g. --set keypoints.discard=0.5");
     }
     SettingsOverlay each(tables);  // the last one of a key is used
     const std::string warning = each.set(set.substr(0, equals), set.substr(equals + 1));
@@ -64,7 +66,7 @@ void JsonOption::write(const nlohmann::json& json) const {
 }
 
 void warn(const std::string& message) {
-  std::cerr << "sks: warning: " << message << std::endl;
+  std::cerr << "sks: warning: " << shownMessage(message) << std::endl;
 }
 
 void print(const std::string& text) {

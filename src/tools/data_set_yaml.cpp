@@ -2,7 +2,12 @@
 #include "tools/data_set_yaml.hpp"
 
 #include <algorithm>
-#include <cstdio>
+
+#include <sks_detector/error.hpp>
+
+#include "core/settings/number_format.hpp"
+#include "core/settings/shown_text.hpp"
+#include "core/settings/utf8.hpp"
 
 namespace sks::tools {
 namespace {
@@ -10,9 +15,7 @@ namespace {
 constexpr double least_visibility = 0.05;  // objects of which less is seen are not asked for
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.9g", value);
-  return text;
+  return formatted("%.9g", value);
 }
 
 std::string groundTruthYaml(const GroundTruth& truth) {
@@ -31,8 +34,15 @@ std::string groundTruthYaml(const GroundTruth& truth) {
 }  // namespace
 
 std::string yamlText(const std::string& text) {
+  if (!isUtf8(text)) {
+    throw Error(ErrorCode::bad_data, "the name '" + shown(text) + "' is not UTF-8, as data set files are: rename it");
+  }
   std::string result = "\"";
-  for (const char c : text) result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') result += '\\';
+    result += code < 0x20 || code == 0x7f ? formatted("\\x%02x", unsigned(code)) : std::string(1, c);
+  }
   return result + "\"";
 }
 

@@ -10,7 +10,7 @@
 
 namespace sks::tools {
 
-/// Quoted text and lists of numbers for a YAML file.
+/// Quoted text and lists of numbers for a YAML file. @throws Error(bad_data) for text that is not UTF-8
 std::string yamlText(const std::string& text);
 std::string yamlList(const std::vector<double>& values);
 

@@ -72,7 +72,7 @@ void addEvaluate(CLI::App& app) {
       ->required()
       ->type_name("FILE");
   options->codebook.add(*command);
-  options->method.add(*command);
+  options->method.add(*command, MethodTask::scenes);
   options->settings.add(*command);
   options->json.add(*command);
   command->add_option("--plot", options->plot, "draw precision-recall curves, thresholds, times and each scene")

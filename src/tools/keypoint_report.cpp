@@ -2,10 +2,10 @@
 #include "tools/keypoint_report.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 #include <limits>
 
+#include "core/settings/number_format.hpp"
 #include "evaluation/metrics.hpp"
 #include "tools/detection_json.hpp"
 #include "tools/settings_json.hpp"
@@ -82,9 +82,7 @@ json kindJson(const KeypointStudy& study, const StudiedKeypoints& kind) {
 }
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.6g", value);
-  return text;
+  return formatted("%.6g", value);
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/name_text.hpp"
+#include "core/settings/shown_text.hpp"
 #include "io/length_unit.hpp"
 #include "simulation/builtin_objects.hpp"
 #include "simulation/mesh_sampler.hpp"
@@ -46,6 +48,7 @@ std::vector<TrainingEntry> MeshOptions::entries() const {
   std::vector<TrainingEntry> entries;
   const double scale = meshScale(scale_);
   const auto add = [&](const std::string& name, const std::string& file) {
+    checkName(name, "--mesh: the object's name");
     const auto same = [&](const TrainingEntry& entry) { return entry.object == name; };
     if (std::any_of(entries.begin(), entries.end(), same)) {
       throw Error(ErrorCode::bad_usage, "--mesh: two meshes are called '" + name + "'");
@@ -63,7 +66,7 @@ std::vector<TrainingEntry> MeshOptions::entries() const {
   for (const std::string& mesh : meshes_) {
     const std::size_t equals = mesh.find('=');
     if (equals == std::string::npos || equals == 0 || equals + 1 == mesh.size()) {
-      throw Error(ErrorCode::bad_usage, "--mesh " + mesh + ": expected NAME=FILE, e.g. --mesh mug=mug.obj");
+      throw Error(ErrorCode::bad_usage, "--mesh " + shown(mesh) + ": expected NAME=FILE, e.g. --mesh mug=mug.obj");
     }
     add(mesh.substr(0, equals), mesh.substr(equals + 1));
   }

@@ -8,6 +8,8 @@
 #include <sks_detector/settings_file.hpp>
 
 #include "baselines/methods.hpp"
+#include "core/settings/nearest_name.hpp"
+#include "core/settings/shown_text.hpp"
 #include "tools/share.hpp"
 
 namespace sks::tools {
@@ -22,22 +24,35 @@ void useWholeGrid(KeypointSettings& settings) {
   settings.discard = 0;
 }
 
-std::vector<std::string> methodNames() {
+/// Why a method cannot do a task; empty if it can.
+const std::string& reasonAgainst(const Method& method, MethodTask task) {
+  return task == MethodTask::scenes ? method.no_detection : method.no_classification;
+}
+
+std::vector<std::string> methodNames(MethodTask task) {
   std::vector<std::string> names{"sks", "sks-paper", "grid"};
-  for (const Method& method : baselines::methods()) names.push_back(method.name);
+  for (const Method& method : baselines::methods()) {
+    if (reasonAgainst(method, task).empty()) names.push_back(method.name);
+  }
   return names;
 }
 
-std::string methodHelp() {
+std::string methodHelp(MethodTask task) {
   std::string help =
       "sks: this detector with the given settings; sks-paper: the same, starting from the preset paper.yaml; grid: "
       "every grid keypoint, without selection";
-  for (const Method& method : baselines::methods()) help += "; " + method.name + ": " + method.help;
+  for (const Method& method : baselines::methods()) {
+    if (reasonAgainst(method, task).empty()) help += "; " + method.name + ": " + method.help;
+  }
   return help;
 }
 
-void refuse(const std::string& name, const std::string& reason) {
-  if (!reason.empty()) throw Error(ErrorCode::bad_usage, "--method " + name + ": " + reason);
+/// What is wrong with a name, for CLI11; empty for one that the task knows.
+std::string checkMethodName(const std::string& name, MethodTask task) {
+  const std::vector<std::string> names = methodNames(task);
+  if (std::find(names.begin(), names.end(), name) != names.end()) return "";
+  if (const Method* method = baselines::findMethod(name)) return name + ": " + reasonAgainst(*method, task);
+  return "there is no method '" + shown(name) + "'; " + nearestNameHint(name, names);
 }
 
 bool reads(const Method& method, const SettingInfo& info) {
@@ -47,8 +62,12 @@ bool reads(const Method& method, const SettingInfo& info) {
 
 }  // namespace
 
-void MethodOption::add(CLI::App& command) {
-  command.add_option("--method,-m", name_, methodHelp())->type_name("NAME")->check(CLI::IsMember(methodNames()));
+void MethodOption::add(CLI::App& command, MethodTask task) {
+  const std::vector<std::string> names = methodNames(task);
+  std::string choices;
+  for (const std::string& name : names) choices += (choices.empty() ? "{" : ",") + name;
+  const auto check = [task](const std::string& name) { return checkMethodName(name, task); };
+  command.add_option("--method,-m", name_, methodHelp(task))->type_name("NAME")->check(check, choices + "}");
 }
 
 void MethodOption::applyBaseline(const std::string& preset, const SettingsOptions& options, Settings& settings) {
@@ -63,8 +82,7 @@ void MethodOption::applyBaseline(const std::string& preset, const SettingsOption
 }
 
 void MethodOption::applyForScenes(const SettingsOptions& options, Settings& settings) {
-  if (const Method* method = baselines::findMethod(name_)) {
-    refuse(name_, method->no_detection);
+  if (baselines::findMethod(name_)) {
     return applyBaseline("config/methods/" + name_ + ".yaml", options, settings);
   }
   if (name_ == "sks-paper") loadSettings(sharePath("config/paper.yaml"), settings);
@@ -73,8 +91,7 @@ void MethodOption::applyForScenes(const SettingsOptions& options, Settings& sett
 }
 
 void MethodOption::applyForIsolatedObjects(const SettingsOptions& options, Settings& settings) {
-  if (const Method* method = baselines::findMethod(name_)) {
-    refuse(name_, method->no_classification);
+  if (baselines::findMethod(name_)) {
     return applyBaseline("config/methods/" + name_ + "_classify.yaml", options, settings);
   }
   if (name_ == "sks-paper") {

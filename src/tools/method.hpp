@@ -15,20 +15,23 @@
 
 namespace sks::tools {
 
+/// What a method is asked to do: to find objects in scenes, or to say which one an isolated object is.
+enum class MethodTask { scenes, isolated_objects };
+
 /// `--method NAME`, with the settings that only some methods have.
 class MethodOption {
 public:
-  void add(CLI::App& command);
+  /// Offers those that can do the task; others are refused with the reason.
+  void add(CLI::App& command, MethodTask task);
 
   const std::string& name() const { return name_; }
 
   /// Makes the settings those of the method in scenes: what it starts from, then the options, then what it fixes.
-  /// @throws Error(bad_usage) for a method that does not detect too, Error(bad_file)
+  /// @throws Error(bad_usage), Error(bad_file)
   void applyForScenes(const SettingsOptions& options, Settings& settings);
 
   /// The same for isolated objects: the published method then differs in its selection and in that only the nearest
-  /// codeword votes, since what else it is published with suits scenes. @throws Error(bad_usage) for a method that does
-  /// not classify too, Error(bad_file)
+  /// codeword votes, since what else it is published with suits scenes. @throws Error(bad_usage), Error(bad_file)
   void applyForIsolatedObjects(const SettingsOptions& options, Settings& settings);
 
   /// @throws what the constructor of Detector throws

@@ -9,6 +9,9 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "core/settings/number_format.hpp"
+#include "core/settings/shown_text.hpp"
+
 namespace sks::tools {
 namespace {
 
@@ -24,15 +27,8 @@ std::size_t terminalWidth() {
 }
 
 std::string duration(double seconds) {
-  char text[32];
-  if (seconds < 120) {
-    std::snprintf(text, sizeof(text), "%.0f s", seconds);
-  } else if (seconds < 7200) {
-    std::snprintf(text, sizeof(text), "%.0f min", seconds / 60);
-  } else {
-    std::snprintf(text, sizeof(text), "%.1f h", seconds / 3600);
-  }
-  return text;
+  if (seconds < 120) return formatted("%.0f s", seconds);
+  return seconds < 7200 ? formatted("%.0f min", seconds / 60) : formatted("%.1f h", seconds / 3600);
 }
 
 }  // namespace
@@ -85,13 +81,11 @@ std::string progressLine(const ProgressState& state, double seconds, std::size_t
     line += "/" + std::to_string(state.total) + " [" + std::string(full, '#') + std::string(cells - full, '-') + "]";
   }
   if (state.done > 0 && seconds > 0) {
-    char rate[32];
-    std::snprintf(rate, sizeof(rate), " %.3g/s", double(state.done) / seconds);
-    line += rate;
+    line += formatted(" %.3g/s", double(state.done) / seconds);
     if (state.total > state.done)
       line += ", " + duration(seconds * double(state.total - state.done) / double(state.done)) + " left";
   }
-  return (line + "  " + state.item).substr(0, width);
+  return (line + "  " + shown(state.item)).substr(0, width);
 }
 
 }  // namespace sks::tools

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/number_format.hpp"
 #include "io/file.hpp"
 #include "tools/point_image.hpp"
 
@@ -103,8 +103,7 @@ void Picture::drawLabel(const Eigen::Isometry3d& T_cloud_box, const Eigen::Vecto
 }
 
 void Picture::drawDetection(const Detection& detection, Rgb color) {
-  char score[16];
-  std::snprintf(score, sizeof(score), " %.2f", detection.score);
+  const std::string score = formatted(" %.2f", detection.score);
   drawBox(detection.T_scene_box, detection.box_size, color);
   drawAxes(detection.position(), detection.T_scene_model.linear(), 0.4 * detection.box_size.maxCoeff());
   drawLabel(detection.T_scene_box, detection.box_size, detection.object + score, color);

@@ -22,10 +22,10 @@ std::string sharePath(const std::string& relative) {
   std::string tried;
   for (const fs::path& folder : folders) {
     if (fs::is_regular_file(folder / relative, ignored)) return (folder / relative).string();
-    tried += "\n  " + folder.string();
+    tried += (tried.empty() ? " '" : ", '") + folder.string() + "'";
   }
   throw Error(ErrorCode::bad_file, "cannot find '" + relative + "', which comes with this program, in any of" + tried +
-                                       "\nset SKS_SHARE to the folder that holds it");
+                                       "; set SKS_SHARE to the folder that holds it");
 }
 
 }  // namespace sks::tools

@@ -10,6 +10,7 @@
 #include "simulation/scene.hpp"
 #include "tools/bag.hpp"
 #include "tools/command.hpp"
+#include "tools/force_option.hpp"
 #include "tools/mesh_options.hpp"
 #include "tools/progress_bar.hpp"
 #include "tools/simulated_set.hpp"
@@ -23,6 +24,7 @@ struct SimulateOptions {
   int scenes = 10;
   bool no_noise = false;
   SceneOptions scene;
+  ForceOption force;
   CLI::Option* bag_option = nullptr;
   std::string bag;  // empty: scenes.bag in the output folder
   double rate = 1;
@@ -63,6 +65,7 @@ void run(const SimulateOptions& options) {
   validate(scene);
   const std::vector<TrainingEntry> entries = options.meshes.entries();
   const std::vector<SceneModel> models = loadModels(entries);
+  options.force.checkFolder(options.output);
   SimulatedSet set(options.output, entries, models);
   const std::unique_ptr<BagRecorder> bag = options.bagRecorder();
   ProgressBar bar;
@@ -91,6 +94,7 @@ void addSimulate(CLI::App& app) {
   command->add_option("--output,-o", options->output, "folder for dataset.yaml and scenes/")
       ->required()
       ->type_name("DIR");
+  options->force.add(*command);
   options->meshes.add(*command);
   command->add_option("--scenes", options->scenes, "number of scenes (default: 10)")->type_name("N");
   command->add_option("--objects", options->scene.objects, "objects in a scene (default: 5)")->type_name("K");

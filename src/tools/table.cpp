@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "core/settings/number_format.hpp"
+#include "core/settings/shown_text.hpp"
 
 namespace sks::tools {
 namespace {
@@ -16,10 +18,7 @@ std::size_t textWidth(const std::string& text) {
 }  // namespace
 
 std::string fixed(double value, int decimals) {
-  if (std::isnan(value)) return "-";
-  char text[64];
-  std::snprintf(text, sizeof(text), "%.*f", decimals, value);
-  return text;
+  return std::isnan(value) ? "-" : formatted("%.*f", decimals, value);
 }
 
 Table::Table(std::vector<std::string> header) {
@@ -28,6 +27,11 @@ Table::Table(std::vector<std::string> header) {
     if (left_.back()) title.erase(0, 1);
   }
   rows_.push_back(std::move(header));
+}
+
+void Table::add(std::vector<std::string> row) {
+  for (std::string& cell : row) cell = shownMessage(cell);
+  rows_.push_back(std::move(row));
 }
 
 std::string Table::text() const {

@@ -15,7 +15,7 @@ public:
   /// @param header a title that begins with '<' makes its column flush left, others are flush right
   explicit Table(std::vector<std::string> header);
 
-  void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
+  void add(std::vector<std::string> row);
 
   /// Columns two spaces apart, the header first; ends with a newline.
   std::string text() const;

@@ -6,6 +6,8 @@
 #include <sks_detector/trainer.hpp>
 
 #include "core/pipeline/stopwatch.hpp"
+#include "core/settings/name_text.hpp"
+#include "io/codebook_layout.hpp"
 #include "io/dataset.hpp"
 #include "io/file.hpp"
 #include "tools/codebook_summary.hpp"
@@ -45,6 +47,8 @@ DataSet trainingSet(const TrainOptions& options) {
 }
 
 void run(const TrainOptions& options) {
+  checkCodebookName(options.output);
+  if (!options.name.empty()) checkName(options.name, "--name");
   Settings settings;
   options.settings.apply(settings);
   const DataSet data_set = trainingSet(options);

@@ -69,6 +69,16 @@ TEST_F(BagExtract, WritesCloudsAndTheirTruth) {
   EXPECT_EQ(cloud.colors[100].r, 200);
 }
 
+TEST_F(BagExtract, MixesNoTwoDataSets) {
+  ASSERT_EQ(extract().status, 0);
+  const CommandRun refused = extract({"--every", "2"});
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("holds a data set already"));
+  EXPECT_EQ(dataSet().scenes.size(), 4u);
+  ASSERT_EQ(extract({"--every", "2", "--force"}).status, 0);
+  EXPECT_EQ(dataSet().scenes.size(), 2u);
+}
+
 TEST_F(BagExtract, TakesOnlyWhatIsAskedFor) {
   ASSERT_EQ(extract({"--from", "0.5", "--to", "3", "--every", "2"}).status, 0);
   const DataSet data_set = dataSet();

@@ -124,6 +124,14 @@ TEST_F(BagInfo, SaysWhyCloudsAreRefused) {
   EXPECT_THAT(with([](auto& message) { message.fields[2].name = "depth"; }), refused("there is no field 'z'"));
   EXPECT_THAT(with([](auto& message) { message.is_bigendian = true; }), refused("the cloud is big-endian"));
   EXPECT_THAT(with([](auto& message) { message.data.resize(100); }), refused("but holds 100 bytes"));
+  EXPECT_THAT(with([](auto& message) {
+                Cloud cloud = test::wall();
+                for (Eigen::Vector3f& point : cloud.points) point *= 0.001f;
+                message = sks_detector::toMessage(cloud, message.header);
+              }),
+              refused("the cloud is too small: it is 0.15 x 0.11 x "));
+  EXPECT_THAT(with([](auto& message) { message.fields[2].name = "a\nb" + std::string(1000, 'x'); }),
+              refused("a\\nbxxx"));
   EXPECT_THAT(with([](auto& message) { message.data.assign(message.data.size(), 0xff); }), refused("192 are NaN"));
   EXPECT_THAT(with([](auto& message) {
                 Cloud cloud = test::wall();

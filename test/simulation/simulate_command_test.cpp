@@ -2,6 +2,7 @@
 #ifdef SKS_EXECUTABLE  // not where the command line is left out of the build
 
 #include <cstdio>
+#include <filesystem>
 #include <sstream>
 
 #include <gmock/gmock.h>
@@ -47,6 +48,23 @@ TEST_F(SimulateCommand, SameSeedSameFiles) {
       EXPECT_GE(truth.visibility.value_or(0), 0.05);
     }
   }
+}
+
+TEST_F(SimulateCommand, MixesNoTwoDataSets) {
+  ASSERT_EQ(simulate("a").status, 0);
+  const std::string before = readTextFile(folder_.path("a/dataset.yaml"));
+  const std::vector<std::string> other{"simulate", "--output", folder_.path("a"), "--mesh", "pot=builtin:bowl",
+                                       "--scenes", "1",        "--objects",       "1"};
+  const test::CommandRun refused = runSks(other);
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.errors, HasSubstr("a' holds a data set already (dataset.yaml): give another one, or --force"));
+  EXPECT_EQ(readTextFile(folder_.path("a/dataset.yaml")), before);
+  std::vector<std::string> forced = other;
+  forced.push_back("--force");
+  EXPECT_EQ(runSks(forced).status, 0);
+  EXPECT_EQ(loadDataSet(folder_.path("a/dataset.yaml")).training.at(0).object, "pot");
+  std::filesystem::remove(folder_.path("a/dataset.yaml"));
+  EXPECT_THAT(runSks(other).errors, HasSubstr("holds clouds already (scenes/)"));
 }
 
 TEST_F(SimulateCommand, WhatIsTrainedFromMeshesIsFoundWithItsPose) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -11,6 +10,7 @@
 #include <sks_detector/stages/point_grid.hpp>
 
 #include "core/capture/clusters.hpp"
+#include "core/settings/number_format.hpp"
 
 namespace sks {
 namespace {
@@ -20,9 +20,7 @@ constexpr double normal_radius_per_spacing = 2.5;  // below it too few neighbour
 constexpr std::int64_t border = 2;                 // pixels at which an object counts as cut off
 
 std::string millimetres(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.1f mm", 1000 * metres);
-  return text;
+  return formatted("%.1f mm", 1000 * metres);
 }
 
 /// Distance of a point to the nearest other one. @param reach where to begin to look [m], more than 0

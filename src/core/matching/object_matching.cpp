@@ -33,11 +33,19 @@ void keepNearly(const Match* of_object, std::size_t objects, double ambiguity, s
 
 }  // namespace
 
-ObjectMatcher::ObjectMatcher(const Codebook& codebook) : objects_(codebook.objects.size()) {
-  std::vector<std::uint32_t> object_of_word;
-  for (const Codeword& word : codebook.words) object_of_word.push_back(codebook.views[word.view].object);
+ObjectMatcher::ObjectMatcher(const Codebook& codebook) {
+  std::vector<char> has_words(codebook.objects.size(), 0);
+  for (const Codeword& word : codebook.words) has_words[codebook.views[word.view].object] = 1;
+  std::vector<std::uint32_t> group_of_object(has_words.size(), 0);
+  for (std::size_t object = 0; object < has_words.size(); ++object) {  // in their order, as matches are
+    if (has_words[object]) group_of_object[object] = std::uint32_t(objects_++);
+  }
+  std::vector<std::uint32_t> group_of_word;
+  for (const Codeword& word : codebook.words) {
+    group_of_word.push_back(group_of_object[codebook.views[word.view].object]);
+  }
   const bool exact = searchesExactly(SearchKind::automatic, codebook.words.size());
-  index_ = std::make_shared<NearestWord>(codebook.descriptors, exact, object_of_word, objects_);
+  index_ = std::make_shared<NearestWord>(codebook.descriptors, exact, group_of_word, objects_);
 }
 
 std::vector<Match> ObjectMatcher::match(const DescriptorMatrix& queries, double ambiguity, int threads) const {

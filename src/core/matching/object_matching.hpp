@@ -29,7 +29,7 @@ public:
   std::vector<Match> match(const DescriptorMatrix& queries, double ambiguity, int threads) const;
 
 private:
-  std::size_t objects_;
+  std::size_t objects_ = 0;  // those with codewords: others cost nothing
   std::shared_ptr<const NearestWord> index_;
 };
 

@@ -6,14 +6,15 @@
 #include <sks_detector/error.hpp>
 
 #include "core/settings/nearest_name.hpp"
+#include "core/settings/shown_text.hpp"
 
 namespace sks {
 
 std::shared_ptr<Codebook> withoutObject(const Codebook& codebook, const std::string& object) {
   const auto found = std::find(codebook.objects.begin(), codebook.objects.end(), object);
   if (found == codebook.objects.end()) {
-    throw Error(ErrorCode::bad_usage, "the codebook '" + codebook.name + "' holds no object '" + object +
-                                          "'; did you mean '" + nearestName(object, codebook.objects) + "'?");
+    throw Error(ErrorCode::bad_usage, "the codebook '" + codebook.name + "' holds no object '" + shown(object) + "'; " +
+                                          nearestNameHint(object, codebook.objects));
   }
   if (codebook.objects.size() == 1) return nullptr;
   const auto removed = std::uint32_t(found - codebook.objects.begin());

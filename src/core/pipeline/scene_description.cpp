@@ -10,6 +10,7 @@
 #include "core/keypoints/sparse_selection.hpp"
 #include "core/pipeline/default_stages.hpp"
 #include "core/settings/threads.hpp"
+#include "core/surface/cloud_extent.hpp"
 #include "core/surface/sanitize.hpp"
 
 namespace sks {
@@ -46,9 +47,15 @@ Settings settingsFor(const Codebook& codebook, Settings settings) {
   return settings;
 }
 
+Cloud usablePoints(const Cloud& cloud, Orientation orientation, const Settings& settings) {
+  Cloud usable = sanitize(cloud, sanitizingFor(orientation, settings.sanitize), nullptr, threadCount(settings));
+  checkExtent(usable, orientation, settings);
+  return usable;
+}
+
 Cloud usableCloud(const Cloud& cloud, Orientation orientation, const Codebook& codebook, const Settings& settings) {
   checkColor(cloud, codebook);
-  Cloud usable = sanitize(cloud, sanitizingFor(orientation, settings.sanitize), nullptr, threadCount(settings));
+  Cloud usable = usablePoints(cloud, orientation, settings);
   if (!usesColor(codebook)) usable.colors.clear();
   return usable;
 }

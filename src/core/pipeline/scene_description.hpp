@@ -22,6 +22,9 @@ namespace sks {
 ///         codebook was trained with
 Settings settingsFor(const Codebook& codebook, Settings settings);
 
+/// The points of a cloud that can be used. @throws Error(bad_data) for an unusable cloud: none left, wrong unit
+Cloud usablePoints(const Cloud& cloud, Orientation orientation, const Settings& settings);
+
 /// The points of a cloud that can be used, with colours where the codebook has some.
 /// @throws Error(bad_data) for an unusable cloud, Error(incompatible) for a cloud without colour with CSHOT
 Cloud usableCloud(const Cloud& cloud, Orientation orientation, const Codebook& codebook, const Settings& settings);

@@ -8,13 +8,14 @@
 
 #include "core/descriptors/shot.hpp"
 #include "core/pipeline/default_stages.hpp"
+#include "core/pipeline/scene_description.hpp"
+#include "core/settings/name_text.hpp"
 #include "core/settings/threads.hpp"
-#include "core/surface/sanitize.hpp"
 
 namespace sks {
 namespace {
 
-constexpr std::size_t longest_name = 100;  // of a descriptor stage
+constexpr std::size_t longest_stage_name = 100;  // of a descriptor stage
 
 /// Numbers that grow in place: a vector would copy them from time to time, and hold them twice meanwhile. Large blocks
 /// are moved by the kernel, page by page.
@@ -55,12 +56,12 @@ std::shared_ptr<const DescriptorStage> trainedDescriptors(const Stages& stages, 
     return std::make_shared<const ShotDescriptors>(type == DescriptorType::automatic ? DescriptorType::cshot : type);
   }
   const std::string name = stages.descriptors->name();
-  if (name.empty() || name.size() > longest_name || name == "shot" || name == "cshot" ||
+  if (name.empty() || name.size() > longest_stage_name || name == "shot" || name == "cshot" ||
       stages.descriptors->size() == 0) {
     throw Error(ErrorCode::bad_usage, "a descriptor stage needs a size and a name of 1 to " +
-                                          std::to_string(longest_name) + " characters that is not shot or cshot; '" +
-                                          name + "' of " + std::to_string(stages.descriptors->size()) +
-                                          " values is none");
+                                          std::to_string(longest_stage_name) +
+                                          " characters that is not shot or cshot; '" + name + "' of " +
+                                          std::to_string(stages.descriptors->size()) + " values is none");
   }
   return stages.descriptors;
 }
@@ -105,7 +106,7 @@ public:
   void add(const TrainingSample& sample) {
     const Settings& settings = codebook_.settings;
     const Orientation orientation = orientationOf(sample.kind);
-    const Cloud cloud = sanitize(sample.load(), sanitizingFor(orientation, settings.sanitize), nullptr, threads_);
+    const Cloud cloud = usablePoints(sample.load(), orientation, settings);
     checkSize(boxOf(sample, cloud));
     if (may_drop_color_ && (sample.rendered || !cloud.hasColor())) dropColor();
 
@@ -188,6 +189,8 @@ Codebook train(const std::vector<TrainingSample>& samples, const Settings& setti
                const Progress& progress, const Stages& stages) {
   validate(settings);
   if (samples.empty()) throw Error(ErrorCode::bad_usage, "there is nothing to train: no training cloud was given");
+  if (!name.empty()) checkName(name, "the codebook's name");
+  for (const TrainingSample& sample : samples) checkName(sample.object, "the object's name");
   CodebookBuilder builder(settings, name, stages);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     report(progress, {"training", samples[i].source, i, samples.size()});

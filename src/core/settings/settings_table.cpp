@@ -6,12 +6,19 @@
 #include <sks_detector/error.hpp>
 
 #include "core/settings/edit_distance.hpp"
+#include "core/settings/nearest_name.hpp"
+#include "core/settings/shown_text.hpp"
 
 namespace sks {
 namespace {
 
 std::string lastPart(const std::string& key) {
   return key.substr(key.rfind('.') + 1);
+}
+
+std::string groupOf(const std::string& key) {
+  const std::size_t dot = key.rfind('.');
+  return dot == std::string::npos ? "" : key.substr(0, dot);
 }
 
 bool sameValue(const std::string& a, const std::string& b) {
@@ -60,16 +67,30 @@ std::string nearestKey(const std::vector<SettingInfo>& infos, const std::string&
   const auto distance = [&](const SettingInfo& info) {
     return std::min(editDistance(key, info.key), editDistance(lastPart(key), lastPart(info.key)) + 1);
   };
-  const auto nearer = [&](const SettingInfo& a, const SettingInfo& b) { return distance(a) < distance(b); };
-  return std::min_element(infos.begin(), infos.end(), nearer)->key;
+  const auto may_mean = [&](const SettingInfo& info) {  // a group that is right says nothing of the rest
+    return mayMean(lastPart(key), lastPart(info.key)) || (groupOf(key) != groupOf(info.key) && mayMean(key, info.key));
+  };
+  const SettingInfo* nearest = nullptr;
+  for (const SettingInfo& info : infos) {
+    if (may_mean(info) && (nearest == nullptr || distance(info) < distance(*nearest))) nearest = &info;
+  }
+  return nearest == nullptr ? std::string() : nearest->key;
 }
 
 void refuseKey(const std::vector<SettingInfo>& infos, const std::string& key) {
-  throw Error(ErrorCode::bad_usage, "unknown setting '" + key + "': did you mean '" + nearestKey(infos, key) + "'?");
+  const std::string nearest = nearestKey(infos, key);
+  std::vector<std::string> of_group;
+  for (const SettingInfo& info : infos) {
+    if (!groupOf(key).empty() && groupOf(info.key) == groupOf(key)) of_group.push_back(info.key);
+  }
+  const std::string hint = !nearest.empty()   ? ": did you mean '" + nearest + "'?"
+                           : of_group.empty() ? "; `sks settings` lists all there are"
+                                              : "; there are: " + shownList(of_group);
+  throw Error(ErrorCode::bad_usage, "unknown setting '" + shown(key) + "'" + hint);
 }
 
 void refuseText(const SettingInfo& info, const std::string& text) {
-  throw Error(ErrorCode::bad_usage, info.key + " = " + text + ": expected " + expectation(info));
+  throw Error(ErrorCode::bad_usage, info.key + " = " + shown(text) + ": expected " + expectation(info));
 }
 
 void checkRange(const SettingInfo& info, double value) {

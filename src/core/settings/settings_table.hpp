@@ -55,10 +55,10 @@ private:
 };
 
 /// The known key that is nearest to a misspelt one, by edit distance; a right name in a wrong or no group is one
-/// mistake.
+/// mistake. Empty where none is near.
 std::string nearestKey(const std::vector<SettingInfo>& infos, const std::string& key);
 
-/// "unknown setting 'x': did you mean 'y'?"
+/// "unknown setting 'x': did you mean 'y'?", or which ones there are.
 [[noreturn]] void refuseKey(const std::vector<SettingInfo>& infos, const std::string& key);
 /// Throws Error(bad_usage) for a text that is no value of the setting's type.
 [[noreturn]] void refuseText(const SettingInfo& info, const std::string& text);

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/number_format.hpp"
 #include "core/surface/distinct_points.hpp"
 
 namespace sks {
@@ -90,10 +90,8 @@ Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeRep
   checkShape(cloud);
   const double median = medianDistance(cloud);
   if (median > std::max(implausible_distance, settings.max_range)) {
-    std::ostringstream message;
-    message << "the cloud looks like millimetres: the median distance from the sensor is " << median
-            << " m; scale it by 0.001 (units: mm in a data set file, --scale 0.001 on the command line)";
-    refuse(message.str());
+    refuse("the cloud looks like millimetres: the median distance from the sensor is " + formatted("%g", median) +
+           " m; scale it by 0.001 (units: mm in a data set file, --scale 0.001 on the command line)");
   }
 
   SanitizeReport counts;
@@ -118,13 +116,11 @@ Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeRep
   kept.width = std::uint32_t(kept.size());
   if (report) *report = counts;
   if (counts.kept < std::size_t(settings.min_points)) {
-    std::ostringstream message;
-    message << "the cloud has " << counts.kept << " usable points, at least " << settings.min_points
-            << " are needed: of " << counts.input << " points " << counts.invalid << " are NaN or infinite, "
-            << counts.out_of_range << " out of range (" << settings.min_range << " to " << settings.max_range
-            << " m from the sensor" << (settings.crop ? ", crop box" : "") << "), " << counts.duplicates
-            << " duplicates";
-    refuse(message.str());
+    refuse(
+        formatted("the cloud has %zu usable points, at least %d are needed: of %zu points %zu are NaN or infinite, "
+                  "%zu out of range (%g to %g m from the sensor%s), %zu duplicates",
+                  counts.kept, settings.min_points, counts.input, counts.invalid, counts.out_of_range,
+                  settings.min_range, settings.max_range, settings.crop ? ", crop box" : "", counts.duplicates));
   }
   return kept;
 }

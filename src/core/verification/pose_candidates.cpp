@@ -54,6 +54,7 @@ std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::v
   std::vector<PoseCandidate> all;
   for (std::uint32_t object = 0; object < spaces.size(); ++object) {
     const std::vector<Vote>& votes = spaces[object];
+    if (votes.empty()) continue;  // of thousands of objects, most
     const VoteDensity density(votes, settings.voting.bandwidth);
     std::vector<PoseCandidate> candidates(votes.size());
 #pragma omp parallel for schedule(dynamic, 16) num_threads(threads)

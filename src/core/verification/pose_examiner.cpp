@@ -42,8 +42,10 @@ VerifiedModels::VerifiedModels(std::shared_ptr<const Codebook> models)
 PoseExaminer::PoseExaminer(const VerifiedModels& models, const SceneView& scene,
                            const std::vector<std::vector<Vote>>& spaces, const Settings& settings)
     : models_(models), codebook_(*models.codebook), scene_(scene), settings_(settings) {
-  densities_.reserve(spaces.size());
-  for (const auto& votes : spaces) densities_.emplace_back(votes, settings.voting.bandwidth);
+  densities_.resize(spaces.size());
+  for (std::size_t object = 0; object < spaces.size(); ++object) {
+    if (!spaces[object].empty()) densities_[object].emplace(spaces[object], settings.voting.bandwidth);
+  }
 }
 
 Examined PoseExaminer::glance(Hypothesis hypothesis) const {
@@ -95,8 +97,8 @@ double PoseExaminer::evidenceAt(Hypothesis& hypothesis, PoseEvidence& pose, std:
   hypothesis.T_scene_box = hypothesis.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
   hypothesis.box_size = view.extent().cast<double>();
   const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();
-  hypothesis.density = densities_[hypothesis.object].at(center);
-  hypothesis.votes = densities_[hypothesis.object].count(center);
+  hypothesis.density = densities_[hypothesis.object]->at(center);
+  hypothesis.votes = densities_[hypothesis.object]->count(center);
   pose = examinePose(view, models_.weights[hypothesis.view], scene_, settings_, hypothesis.T_scene_model, most_points,
                      search);
   const double gain = scene_.comparesColor(view) ? color_gain : 1;

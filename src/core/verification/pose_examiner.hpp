@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <sks_detector/codebook.hpp>
@@ -60,7 +61,7 @@ private:
   const Codebook& codebook_;
   const SceneView& scene_;
   const Settings& settings_;
-  std::vector<VoteDensity> densities_;  // of each object
+  std::vector<std::optional<VoteDensity>> densities_;  // of each object that has votes
 };
 
 constexpr std::size_t first_points = 250, last_points = 1500;  ///< examined to choose between poses, and of the chosen

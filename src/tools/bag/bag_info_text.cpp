@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include "core/settings/shown_text.hpp"
 #include "ros/frame_name.hpp"
 #include "tools/bag/stamps.hpp"
 #include "tools/table.hpp"
@@ -21,7 +22,8 @@ std::string yesOrNo(bool value) {
 
 std::string framesText(const CloudCheck& cloud) {
   std::string text;
-  for (const std::string& frame : cloud.frames()) text += (text.empty() ? "" : ", ") + (frame.empty() ? "-" : frame);
+  for (const std::string& frame : cloud.frames())
+    text += (text.empty() ? "" : ", ") + (frame.empty() ? "-" : shown(frame));
   return text.empty() ? "-" : text;
 }
 
@@ -57,7 +59,7 @@ std::string frameLines(const BagReport& report) {
          link = tree.find(link->second)) {
       line += " < " + link->second;
     }
-    text += "  " + line + "\n";
+    text += "  " + shownMessage(line) + "\n";
   }
   return text;
 }
@@ -81,7 +83,7 @@ std::string bagInfoText(const BagFile& bag, const BagReport& report) {
   if (!report.transforms.tree().empty()) text += "\n" + frameLines(report);
   text += report.remarks.empty() ? "\nno remarks\n" : "\nremarks\n";
   for (const Remark& remark : report.remarks) {
-    text += "  " + severityName(remark.severity) + ": " + remark.topic + ": " + remark.message + "\n";
+    text += "  " + severityName(remark.severity) + ": " + shownMessage(remark.topic + ": " + remark.message) + "\n";
   }
   return text;
 }

@@ -5,24 +5,30 @@
 
 #include <sks_detector/error.hpp>
 
-#include "core/surface/sanitize.hpp"
+#include "core/pipeline/scene_description.hpp"
+#include "core/settings/shown_text.hpp"
 #include "ros/cloud_message.hpp"
 #include "ros/frame_name.hpp"
+#include "ros/node_settings.hpp"
 
 namespace sks::tools {
 namespace {
 
 using sks_detector::withoutSlash;
 
+constexpr std::size_t longest_field = 60, longest_list = 400;  // [bytes]
+
 std::string fieldNames(const sensor_msgs::PointCloud2& message) {
   std::string names;
-  for (const sensor_msgs::PointField& field : message.fields) names += (names.empty() ? "" : " ") + field.name;
+  for (std::size_t i = 0; i < message.fields.size() && names.size() < longest_list; ++i) {
+    names += (names.empty() ? "" : " ") + shown(message.fields[i].name, longest_field);
+  }
   return names;
 }
 
 std::string quoted(const std::set<std::string>& names) {
   std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + name + "'";
+  for (const std::string& name : names) text += (text.empty() ? "'" : ", '") + shown(name) + "'";
   return text;
 }
 
@@ -39,14 +45,14 @@ void CloudCheck::add(const sensor_msgs::PointCloud2& message, const ros::Time& r
   point_step_ = message.point_step;
   fields_ = fieldNames(message);
   try {
-    const Cloud cloud = sks_detector::toCloud(message);
+    const Cloud cloud = sks_detector::receivedCloud(message, sks_detector::NodeSettings().max_points);
     if (!cloud.hasColor()) ++uncolored_;
     const auto invalid = std::size_t(std::count_if(cloud.points.begin(), cloud.points.end(),
                                                    [](const Eigen::Vector3f& point) { return !point.allFinite(); }));
     points_ += cloud.size();
     invalid_ += invalid;
     if (message.is_dense && invalid > 0) ++wrongly_dense_;
-    sanitize(cloud, SanitizeSettings());
+    usablePoints(cloud, Orientation::sensor, Settings());
     ++usable_;
   } catch (const Error& error) {
     ++refusals_[error.what()];
@@ -72,7 +78,8 @@ void CloudCheck::remark(Remarks& remarks) const {
   if (frames_.size() > 1) add(Severity::warning, "the clouds are in different frames: " + quoted(frames_));
   for (const std::string& frame : frames_) {
     if (withoutSlash(frame) != frame) {
-      add(Severity::note, "the frame '" + frame + "' begins with a slash, which tf2 does not know: the node drops it");
+      add(Severity::note,
+          "the frame '" + shown(frame) + "' begins with a slash, which tf2 does not know: the node drops it");
     }
   }
   if (uncolored_ > 0 && usable_ > 0) {

@@ -16,6 +16,7 @@
 #include "tools/bag/stamps.hpp"
 #include "tools/command.hpp"
 #include "tools/data_set_yaml.hpp"
+#include "tools/force_option.hpp"
 #include "tools/progress_bar.hpp"
 
 namespace sks::tools {
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 struct BagExtractOptions {
   std::string bag;
   std::string output;
+  ForceOption force;
   std::string topic;
   std::string ground_truth;
   std::size_t every = 1;
@@ -53,12 +55,15 @@ public:
 
   std::size_t count() const { return names_.size(); }
 
+  /// @throws Error(bad_data) where the bag's names cannot stand in a data set
   std::string finish(const std::string& name) const {
     std::string path = (folder_ / "dataset.yaml").string();
-    writeFileAtomically(path,
-                        "# Clouds out of a bag, named by their stamps. Give each scene the objects that stand in "
-                        "it, and list what is to be trained.\nname: " +
-                            yamlText(name) + "\nunits: m\nmax_distance: 0.05\nscenes:\n" + scenes_);
+    const std::string text =
+        "# Clouds out of a bag, named by their stamps. Give each scene the objects that stand in "
+        "it, and list what is to be trained.\nname: " +
+        yamlText(name) + "\nunits: m\nmax_distance: 0.05\nscenes:\n" + scenes_;
+    parseDataSet(text, path);  // what would be refused later, such as a name in the bag, is not left behind
+    writeFileAtomically(path, text);
     return path;
   }
 
@@ -91,6 +96,7 @@ void run(const BagExtractOptions& options) {
   const std::string topic = findCloudTopic(bag, options.topic);
   const std::string truth_topic = findGroundTruthTopic(bag, options.ground_truth);
   const RecordedDetections truth = truth_topic.empty() ? RecordedDetections() : readDetections(bag, truth_topic);
+  options.force.checkFolder(options.output);
   ExtractedSet set(options.output);
   ProgressBar bar;
   const Progress progress = bar.callback();
@@ -122,6 +128,7 @@ void addBagExtract(CLI::App& bag) {
   command->add_option("--output,-o", options->output, "folder for dataset.yaml and scenes/")
       ->required()
       ->type_name("DIR");
+  options->force.add(*command);
   command->add_option("--topic,-t", options->topic, "topic of the clouds (default: the only one)")->type_name("TOPIC");
   command->add_option("--ground-truth", options->ground_truth, "topic of the truth (default: the one called so)")
       ->type_name("TOPIC");

@@ -12,6 +12,7 @@
 
 #include <sks_detector/error.hpp>
 
+#include "io/atomic_file.hpp"
 #include "ros/cloud_message.hpp"
 #include "ros/detection_message.hpp"
 #include "tools/bag.hpp"
@@ -88,8 +89,9 @@ BagRecorder::BagRecorder(const std::string& path, const CameraModel& camera, dou
   impl_->path = path;
   impl_->rate = rate;
   impl_->info = cameraInfo(camera);
-  impl_->write([&] { impl_->bag.open(path + ".active", rosbag::bagmode::Write); });
-  impl_->unfinished = path + ".active";
+  const std::string unfinished = temporaryName(path, ".active");
+  impl_->write([&] { impl_->bag.open(unfinished, rosbag::bagmode::Write); });
+  impl_->unfinished = unfinished;
 }
 
 BagRecorder::~BagRecorder() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <limits>
+#include <system_error>
 
 #include <sks_detector/error.hpp>
 
@@ -12,33 +13,37 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The image of that number with any of the extensions that BOP sets have; of these the first one where there is none.
-std::string imageFile(const fs::path& folder, int id) {
+/// Empty where there is no picture. One that cannot be used, such as a link to nothing, is there: reading it tells why.
+std::string pictureIn(const fs::path& folder, int id) {
   const std::string stem = (folder / bopNumber(id)).string();
-  for (const char* extension : {".png", ".jpg", ".tif"}) {
-    if (fs::is_regular_file(stem + extension)) return stem + extension;
+  for (const char* extension : {".png", ".jpg", ".jpeg", ".PNG", ".JPG", ".JPEG", ".tif", ".tiff"}) {
+    std::error_code ignored;
+    if (fs::symlink_status(stem + extension, ignored).type() != fs::file_type::not_found) return stem + extension;
   }
-  return stem + ".png";
+  return "";
 }
 
 }  // namespace
 
-Cloud readBopCloud(const fs::path& folder, const BopImage& image) {
-  const std::string depth_file = imageFile(folder / "depth", image.id),
-                    color_file = imageFile(folder / "rgb", image.id);
-  if (!fs::is_regular_file(depth_file)) {
-    throw Error(ErrorCode::bad_file, "cannot read the depth image '" + depth_file + "'");
-  }
-  const DepthImage depth = readDepthImage(depth_file);
-  const ColorImage color = fs::is_regular_file(color_file) ? readColorImage(color_file) : ColorImage();
-  const bool colored = !color.pixels.empty();
+BopPictures findBopPictures(const fs::path& folder, int image) {
+  BopPictures pictures;
+  pictures.depth = pictureIn(folder / "depth", image);
+  pictures.color = pictureIn(folder / "rgb", image);
+  std::error_code ignored;
+  pictures.complete = !pictures.depth.empty() && (!pictures.color.empty() || !fs::exists(folder / "rgb", ignored));
+  return pictures;
+}
+
+Cloud readBopCloud(const BopPictures& pictures, const BopCamera& camera) {
+  const DepthImage depth = readDepthImage(pictures.depth);
+  const ColorImage color = pictures.color.empty() ? ColorImage() : readColorImage(pictures.color);
+  const bool colored = !pictures.color.empty();
   if (colored && (color.width != depth.width || color.height != depth.height)) {
-    throw Error(ErrorCode::bad_file, color_file + ": its size differs from that of '" + depth_file + "'");
+    throw Error(ErrorCode::bad_file, pictures.color + ": its size differs from that of '" + pictures.depth + "'");
   }
   Cloud cloud;
   cloud.width = std::uint32_t(depth.width);
   cloud.height = std::uint32_t(depth.height);
-  const BopCamera& camera = image.camera;
   for (int row = 0; row < depth.height; ++row) {
     for (int column = 0; column < depth.width; ++column) {
       double z = camera.depth_scale * depth(row, column);

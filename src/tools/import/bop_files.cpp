@@ -8,7 +8,9 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/settings/number_format.hpp"
 #include "io/file.hpp"
+#include "io/nearest_rotation.hpp"
 
 namespace sks::tools {
 namespace {
@@ -63,41 +65,65 @@ BopCamera cameraOf(const Node& node) {
   return camera;
 }
 
-BopInstance instanceOf(const Node& node) {
-  BopInstance instance;
-  instance.object = int(node.at("obj_id").number());
-  const std::vector<double> R = node.at("cam_R_m2c").numbers(9), t = node.at("cam_t_m2c").numbers(3);
-  instance.T_camera_model = Eigen::Isometry3d::Identity();
-  instance.T_camera_model.linear() = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.data());
-  instance.T_camera_model.translation() = Eigen::Map<const Eigen::Vector3d>(t.data());
-  return instance;
-}
+/// Reads poses, and counts those that were only nearly rigid.
+class PoseReader {
+public:
+  BopInstance instanceOf(const Node& node) {
+    BopInstance instance;
+    instance.object = int(node.at("obj_id").number());
+    const std::vector<double> R = node.at("cam_R_m2c").numbers(9), t = node.at("cam_t_m2c").numbers(3);
+    const NearestRotation nearest =
+        nearestRotation(Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(R.data()));
+    if (!nearest.fault.empty()) throw Error(ErrorCode::bad_data, node.where + ", cam_R_m2c: " + nearest.fault);
+    if (nearest.deviation > skew_rotation) {
+      if (skew_++ == 0) first_ = node.where;
+      largest_ = std::max(largest_, nearest.deviation);
+    }
+    instance.T_camera_model = Eigen::Isometry3d::Identity();
+    instance.T_camera_model.linear() = nearest.rotation;
+    instance.T_camera_model.translation() = Eigen::Map<const Eigen::Vector3d>(t.data());
+    return instance;
+  }
+
+  void warn(std::vector<std::string>& warnings) const {
+    if (skew_ == 0) return;
+    warnings.push_back(first_ + (skew_ > 1 ? " and " + std::to_string(skew_ - 1) + " more" : "") +
+                       formatted(": cam_R_m2c is orthonormal to %.2g only; the nearest rotation is written", largest_));
+  }
+
+private:
+  std::string first_;  // where it stands
+  std::size_t skew_ = 0;
+  double largest_ = 0;
+};
 
 }  // namespace
 
-std::vector<BopImage> readBopScene(const fs::path& folder) {
+BopScene readBopScene(const fs::path& folder) {
   const fs::path camera_file = folder / "scene_camera.json", truth_file = folder / "scene_gt.json",
                  info_file = folder / "scene_gt_info.json";
-  const json cameras = readJson(camera_file), truth = readJson(truth_file);
-  json info = json::object();
+  const json cameras = readJson(camera_file);
+  json truth = json::object(), info = json::object();
+  if (fs::exists(truth_file)) truth = readJson(truth_file);
   if (fs::exists(info_file)) info = readJson(info_file);
-  std::vector<BopImage> images;
+  PoseReader poses;
+  BopScene scene;
   for (const auto& [key, value] : cameras.items()) {
     const Node camera{value, camera_file.string() + ": image " + key};
-    BopImage image{idOf(key, camera_file), cameraOf(camera), {}};
-    const Node instances = Node{truth, truth_file.string()}.at(key);
-    for (std::size_t i = 0; i < instances.value.size(); ++i) {
+    BopImage image{idOf(key, camera_file), cameraOf(camera), truth.contains(key), {}};
+    for (std::size_t i = 0; image.has_truth && i < truth[key].size(); ++i) {
       const std::string where = ": image " + key + ", object " + std::to_string(i);
-      BopInstance instance = instanceOf({instances.value[i], truth_file.string() + where});
+      BopInstance instance = poses.instanceOf({truth[key][i], truth_file.string() + where});
       if (info.contains(key) && i < info[key].size()) {
         instance.visibility = Node{info[key][i], info_file.string() + where}.at("visib_fract").number();
       }
       image.instances.push_back(instance);
     }
-    images.push_back(std::move(image));
+    scene.images.push_back(std::move(image));
   }
-  std::sort(images.begin(), images.end(), [](const BopImage& a, const BopImage& b) { return a.id < b.id; });
-  return images;
+  std::sort(scene.images.begin(), scene.images.end(), [](const BopImage& a, const BopImage& b) { return a.id < b.id; });
+  poses.warn(scene.warnings);
+  return scene;
 }
 
 std::map<int, Symmetry> readBopSymmetries(const fs::path& models) {

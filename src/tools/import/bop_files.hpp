@@ -31,19 +31,40 @@ struct BopCamera {
 struct BopImage {
   int id = 0;
   BopCamera camera;
+  bool has_truth = false;  ///< else nobody says what is in it: test images of some sets
   std::vector<BopInstance> instances;
 };
 
-/// The images that scene_camera.json lists, by number, with scene_gt.json and scene_gt_info.json.
-/// @throws Error(bad_file) naming file, image and key
-std::vector<BopImage> readBopScene(const std::filesystem::path& folder);
+/// The images of a scene's folder.
+struct BopScene {
+  std::vector<BopImage> images;
+  std::vector<std::string> warnings;  ///< poses that had to be mended, with counts
+};
+
+/// The images that scene_camera.json lists, by number, with scene_gt.json and scene_gt_info.json where they are there.
+/// Rotations become the nearest ones. @throws Error(bad_file) naming file, image and key; Error(bad_data) for a pose
+/// that is not rigid
+BopScene readBopScene(const std::filesystem::path& folder);
+
+/// The pictures of one image.
+struct BopPictures {
+  std::string depth;  ///< path; empty where it is not there
+  std::string color;  ///< the same
+
+  /// All that the scene's folder should have.
+  bool complete = false;
+};
+
+/// Looks for `depth/<image>` and `rgb/<image>` with any of the extensions that BOP sets have. Sets without a folder
+/// `rgb` have no colour.
+BopPictures findBopPictures(const std::filesystem::path& folder, int image);
 
 /// Symmetries of models_info.json by object; those about one axis alone. Empty where the file is not there.
 std::map<int, Symmetry> readBopSymmetries(const std::filesystem::path& models);
 
-/// The organised, coloured cloud of an image in the camera's frame [mm]; NaN where there is no depth.
-/// @throws Error(bad_file) naming the image and what is wrong with it
-Cloud readBopCloud(const std::filesystem::path& folder, const BopImage& image);
+/// The organised cloud of an image in the camera's frame [mm], coloured where there is a colour picture; NaN where
+/// there is no depth. @throws Error(bad_file) naming the picture and what is wrong with it
+Cloud readBopCloud(const BopPictures& pictures, const BopCamera& camera);
 
 /// A number as it stands in file names: 000012.
 std::string bopNumber(int number);

@@ -7,6 +7,7 @@
 
 #include "io/file.hpp"
 #include "tools/command.hpp"
+#include "tools/force_option.hpp"
 #include "tools/import/importer.hpp"
 #include "tools/progress_bar.hpp"
 
@@ -28,10 +29,11 @@ std::vector<std::string> formatNames() {
   return names;
 }
 
-void run(const std::string& format, ImportOptions options) {
+void run(const std::string& format, ImportOptions options, const ForceOption& force) {
   if (!std::filesystem::is_directory(options.folder)) {
     throw Error(ErrorCode::bad_file, "'" + options.folder + "' is no folder; give the one that the data set lies in");
   }
+  force.checkFile(options.output);
   checkWritable(options.output);
   if (options.name.empty()) {
     options.name = std::filesystem::canonical(options.folder).filename().string();
@@ -41,8 +43,10 @@ void run(const std::string& format, ImportOptions options) {
   bar.clear();
   set.data_set.name = options.name;
   if (!options.units.empty()) set.units = options.units;
-  writeFileAtomically(options.output, dataSetYaml(set, options.output));
-  const DataSet written = loadDataSet(options.output);
+  const std::string yaml = dataSetYaml(set, options.output);
+  const DataSet written = parseDataSet(yaml, options.output);  // what would be refused later is not left behind
+  writeFileAtomically(options.output, yaml);
+  for (const std::string& warning : set.warnings) warn(warning);
   for (const std::string& warning : written.warnings) warn(warning);
   std::size_t instances = 0;
   for (const Scene& scene : written.scenes) instances += scene.objects.size();
@@ -80,7 +84,13 @@ void addImport(CLI::App& app) {
       ->add_option("--diagonal", options->diagonal,
                    "psb, modelnet: size to which each mesh is scaled [m] (default: 0.5)")
       ->check(CLI::Range(0.01, 100.0));
-  command->callback([format, options] { run(*format, *options); });
+  command
+      ->add_option("--models", options->models,
+                   "bop: folder of meshes (default: models); T-LESS has models_cad, without colour, and models_reconst")
+      ->type_name("NAME");
+  const auto force = std::make_shared<ForceOption>();
+  force->add(*command);
+  command->callback([format, options, force] { run(*format, *options, *force); });
 }
 
 }  // namespace sks::tools

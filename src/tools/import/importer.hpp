@@ -19,6 +19,7 @@ struct ImportOptions {
   std::string name;                     ///< of the data set; empty: that of the folder
   std::string units;                    ///< m or mm; empty: what the format has
   std::string split;                    ///< BOP: folder of images; empty: the first of test*, val*, train*
+  std::string models = "models";        ///< BOP: folder of meshes
   std::string classification = "base";  ///< PSB: folder of the .cla files, e.g. base or coarse1
   int points = 6000;                    ///< of a cloud that is sampled from a mesh
   double diagonal = 0.5;                ///< of the box of such a cloud [m]
@@ -29,6 +30,7 @@ struct ImportOptions {
 struct ImportedSet {
   DataSet data_set;
   std::string units = "m";
+  std::vector<std::string> warnings;  ///< what was left out or mended, with counts
 };
 
 /// Where an import writes clouds that it has to make, and how it says where it stands.

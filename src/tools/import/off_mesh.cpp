@@ -6,6 +6,7 @@
 #include <sks_detector/error.hpp>
 
 #include "io/file.hpp"
+#include "io/number_text.hpp"
 
 namespace sks::tools {
 namespace {
@@ -14,14 +15,14 @@ constexpr std::size_t largest_file = std::size_t(1) << 30;
 
 class OffReader {
 public:
-  explicit OffReader(const std::string& path) : path_(path), text_(readTextFile(path, largest_file)) {}
+  explicit OffReader(const std::string& path) : path_(path), text_(plainStream(readTextFile(path, largest_file))) {}
 
   OffMesh read() {
     std::string line = nextLine("'OFF'");
     if (line.compare(0, 3, "OFF") != 0) fail("the file does not begin with 'OFF': it is no OFF file");
     line.erase(0, 3);
     if (line.find_first_not_of(" \t\r") == std::string::npos) line = nextLine("the counts of vertices and faces");
-    std::istringstream counts(line);
+    std::istringstream counts = plainStream(line);
     std::size_t vertices = 0, faces = 0;
     if (!(counts >> vertices >> faces)) fail("expected the counts of vertices and faces, found '" + line + "'");
     OffMesh mesh;
@@ -49,7 +50,7 @@ private:
 
   Eigen::Vector3f vertex(std::size_t i, std::size_t count) {
     const std::string what = "vertex " + std::to_string(i + 1) + " of " + std::to_string(count);
-    std::istringstream line(nextLine(what));
+    std::istringstream line = plainStream(nextLine(what));
     Eigen::Vector3f v;
     if (!(line >> v.x() >> v.y() >> v.z()) || !v.allFinite()) fail(what + " must be three finite numbers");
     return v;
@@ -57,7 +58,7 @@ private:
 
   void addFace(std::size_t i, std::size_t count, OffMesh& mesh) {
     const std::string what = "face " + std::to_string(i + 1) + " of " + std::to_string(count);
-    std::istringstream line(nextLine(what));
+    std::istringstream line = plainStream(nextLine(what));
     std::size_t corners = 0;
     if (!(line >> corners)) fail(what + " must begin with its number of vertices");
     std::vector<std::uint32_t> corner;

@@ -6,6 +6,7 @@
 #include <sks_detector/error.hpp>
 
 #include "io/file.hpp"
+#include "io/number_text.hpp"
 #include "tools/import/importer.hpp"
 #include "tools/import/off_mesh.hpp"
 
@@ -21,7 +22,7 @@ struct ClassifiedModel {
 
 /// Models with the class that they stand in; classes without models only group others.
 std::vector<ClassifiedModel> readClasses(const fs::path& path) {
-  std::istringstream text(readTextFile(path.string()));
+  std::istringstream text = plainStream(readTextFile(path.string()));
   const auto fail = [&](const std::string& message) {
     throw Error(ErrorCode::bad_file, path.string() + ": " + message);
   };

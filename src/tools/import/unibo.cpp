@@ -9,7 +9,10 @@
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
 
+#include "core/settings/number_format.hpp"
 #include "io/file.hpp"
+#include "io/nearest_rotation.hpp"
+#include "io/number_text.hpp"
 #include "tools/import/importer.hpp"
 #include "tools/import/unibo_ini.hpp"
 
@@ -29,20 +32,26 @@ std::string objectOf(const fs::path& model) {
   return isView(model) ? model.parent_path().filename().string() : model.stem().string();
 }
 
-Eigen::Isometry3d readPose(const std::string& path) {
-  std::istringstream text(readTextFile(path));
+Eigen::Isometry3d readPose(const std::string& path, std::vector<std::string>& warnings) {
+  std::istringstream text = plainStream(readTextFile(path));
   Eigen::Matrix4d matrix;
   for (int i = 0; i < 16; ++i) {
     if (!(text >> matrix(i / 4, i % 4))) {
       throw Error(ErrorCode::bad_file, path + ": a pose needs 16 numbers, row-major; there are " + std::to_string(i));
     }
   }
-  const Eigen::Matrix3d R = matrix.topLeftCorner<3, 3>();
-  if ((R.transpose() * R - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-3 || R.determinant() < 0) {
-    throw Error(ErrorCode::bad_data, path + ": its upper left 3 x 3 numbers are no rotation");
+  const NearestRotation nearest = nearestRotation(matrix.topLeftCorner<3, 3>());
+  if (!nearest.fault.empty()) {
+    throw Error(ErrorCode::bad_data,
+                path + ": its upper left 3 x 3 numbers are no rotation: the matrix " + nearest.fault);
+  }
+  if (nearest.deviation > skew_rotation) {
+    warnings.push_back(
+        path + formatted(": its rotation is orthonormal to %.2g only; the nearest one is written", nearest.deviation));
   }
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.matrix().topRows<3>() = matrix.topRows<3>();
+  pose.linear() = nearest.rotation;
+  pose.translation() = matrix.topRightCorner<3, 1>();
   return pose;
 }
 
@@ -79,7 +88,7 @@ private:
       GroundTruth truth;
       truth.object = objectOf(model.cloud);
       truth.reference = model.cloud;
-      truth.T_scene_reference = readPose(model.pose);
+      truth.T_scene_reference = readPose(model.pose, set_.warnings);
       truth.position = *truth.T_scene_reference * boxCenter(model.cloud);
       scene.objects.push_back(std::move(truth));
     }

@@ -10,6 +10,7 @@
 #include <sks_detector/error.hpp>
 
 #include "io/file.hpp"
+#include "io/number_text.hpp"
 
 namespace sks::tools {
 namespace {
@@ -25,7 +26,7 @@ std::string trimmed(const std::string& text) {
 /// Values by "SECTION.KEY", in capitals.
 std::map<std::string, std::string> readIni(const std::string& path) {
   std::map<std::string, std::string> values;
-  std::istringstream text(readTextFile(path));
+  std::istringstream text = plainStream(readTextFile(path));
   std::string section;
   for (std::string line; std::getline(text, line);) {
     line = trimmed(line);
@@ -77,7 +78,7 @@ std::optional<UniboScene> readUniboIni(const std::string& path, const std::strin
   UniboScene scene;
   scene.cloud = file("SCENE.PATH");
   int count = 0;
-  std::istringstream number(values.at("MODELS.NUMBER"));
+  std::istringstream number = plainStream(values.at("MODELS.NUMBER"));
   if (!(number >> count) || count < 0) {
     throw Error(ErrorCode::bad_file, path + ": MODELS.NUMBER is '" + number.str() + "', not a count");
   }

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include <CLI/App.hpp>
+
+namespace sks::tools {
+
+/// `--force`: what is written may take the place of a data set that is there. Without it, two data sets would be mixed
+/// in one folder without a word.
+class ForceOption {
+public:
+  void add(CLI::App& command);
+
+  /// For a folder that is to hold dataset.yaml and scenes/. With --force dataset.yaml is removed, so that a run that is
+  /// interrupted leaves no list of clouds that are half old and half new.
+  /// @throws Error(bad_usage) naming the folder
+  void checkFolder(const std::string& folder) const;
+
+  /// For a data set file; that is written last, and stays as it is until then. @throws Error(bad_usage)
+  void checkFile(const std::string& file) const;
+
+private:
+  void refuse(const std::string& path, const std::string& what) const;
+
+  bool force_ = false;
+};
+
+}  // namespace sks::tools
