@@ -36,7 +36,9 @@ Settings classSettings() {
 std::shared_ptr<const Codebook> classes(ViewKind kind = ViewKind::model) {
   const auto sample = [&](const std::string& name, const test::Shape& shape) {
     const Eigen::Isometry3f T = test::poseOf(0, Eigen::Vector3f::UnitX(), {0, 0, 1});
-    const auto load = [=] { return kind == ViewKind::model ? test::model(shape, class_spacing) : test::view({{shape, T}}); };
+    const auto load = [=] {
+      return kind == ViewKind::model ? test::model(shape, class_spacing) : test::view({{shape, T}});
+    };
     return TrainingSample{name, name + ".pcd", kind, load, {}, {}};
   };
   return std::make_shared<Codebook>(train({sample("blocks", test::asymmetricShape()),

@@ -34,17 +34,11 @@ std::array<std::size_t, 3> coordinates(const PlyElement& vertices) {
   return indices;
 }
 
-std::vector<std::string> namesOfValues(const PlyElement& element) {
-  std::vector<std::string> names;
-  for (const PlyProperty& property : element.properties) names.push_back(property.list ? "" : property.name);
-  return names;
-}
-
 /// The colours of vertices, value by value.
 class VertexColors {
 public:
   explicit VertexColors(const PlyElement& vertices)
-      : packed_(packedColorField(namesOfValues(vertices))), places_(colorChannelFields(namesOfValues(vertices))) {
+      : packed_(packedColorField(plyValueNames(vertices))), places_(colorChannelFields(plyValueNames(vertices))) {
     if (packed_ && vertices.properties[*packed_].type < PointField::int32) packed_.reset();  // no room for three bytes
     if (packed_) as_float_ = vertices.properties[*packed_].type == PointField::float32;
     for (std::size_t i = 0; places_ && i < 3; ++i) types_[i] = vertices.properties[(*places_)[i]].type;

@@ -103,6 +103,12 @@ void checkElement(const PlyElement& element, PlyFormat format, std::uint64_t byt
              bytes_left);
 }
 
+std::vector<std::string> plyValueNames(const PlyElement& element) {
+  std::vector<std::string> names;
+  for (const PlyProperty& property : element.properties) names.push_back(property.list ? "" : property.name);
+  return names;
+}
+
 std::size_t plyIndex(const PlyElement& element, const std::string& name, bool list) {
   const auto found =
       std::find_if(element.properties.begin(), element.properties.end(),

@@ -46,6 +46,9 @@ void checkElement(const PlyElement& element, PlyFormat format, std::uint64_t byt
 
 constexpr std::size_t ply_absent = std::numeric_limits<std::size_t>::max();
 
+/// Names of the properties; of lists empty.
+std::vector<std::string> plyValueNames(const PlyElement& element);
+
 /// Place of a number, or of a list, among the properties; ply_absent where it is not there.
 std::size_t plyIndex(const PlyElement& element, const std::string& name, bool list = false);
 

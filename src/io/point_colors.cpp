@@ -88,4 +88,9 @@ std::vector<Rgb> colorsOfChannels(const std::vector<Eigen::Vector3f>& channels,
   return colors;
 }
 
+std::vector<Rgb> statedColors(const std::vector<Eigen::Vector3f>& channels, const std::array<std::uint8_t, 3>& types) {
+  const bool all = std::all_of(channels.begin(), channels.end(), [](const auto& c) { return c.allFinite(); });
+  return all ? colorsOfChannels(channels, types) : std::vector<Rgb>();
+}
+
 }  // namespace sks

@@ -36,4 +36,8 @@ Rgb unpackedColor(std::uint32_t packed);
 std::vector<Rgb> colorsOfChannels(const std::vector<Eigen::Vector3f>& channels,
                                   const std::array<std::uint8_t, 3>& types);
 
+/// The same for the surface of a mesh, which has colours only where its file states all of them.
+/// @return none where a value is not finite
+std::vector<Rgb> statedColors(const std::vector<Eigen::Vector3f>& channels, const std::array<std::uint8_t, 3>& types);
+
 }  // namespace sks

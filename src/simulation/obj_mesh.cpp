@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>
 
 #include <sks_detector/error.hpp>
 
-#include "io/color_values.hpp"
 #include "io/number_text.hpp"
+#include "io/point_colors.hpp"
+#include "io/point_fields.hpp"
 #include "simulation/file_mesh.hpp"
 #include "simulation/text_lines.hpp"
 
@@ -36,8 +38,8 @@ private:
   TextLines lines_;
   const MeshFiles& files_;
   FileMesh mesh_;
-  std::vector<float> channels_;        // of the vertices that have a colour; zeros of the others
-  std::vector<std::uint8_t> colored_;  // by vertex
+  std::vector<Eigen::Vector3f> channels_;  // of the vertices that have a colour; zeros of the others
+  std::vector<std::uint8_t> colored_;      // by vertex
   std::vector<std::string> libraries_;
   std::map<std::string, int> used_;  // materials by name
   int material_ = -1;
@@ -63,7 +65,8 @@ FileMesh ObjReader::read() {
     }
   }
   const bool any_color = std::find(colored_.begin(), colored_.end(), 1) != colored_.end();
-  if (any_color) mesh_.vertex_colors = colorsOf(channels_, false);
+  constexpr std::array<std::uint8_t, 3> reals{PointField::float32, PointField::float32, PointField::float32};
+  if (any_color) mesh_.vertex_colors = statedColors(channels_, reals);
   for (FileFace& face : mesh_.faces) {
     face.vertex_colors = !mesh_.vertex_colors.empty();
     for (std::size_t k = face.first; face.vertex_colors && k < face.first + face.count; ++k) {
@@ -88,7 +91,7 @@ void ObjReader::readVertex() {
   mesh_.vertices.emplace_back(number(1), number(2), number(3));
   const bool color = lines_.words().size() > 6;
   colored_.push_back(color ? 1 : 0);
-  for (std::size_t k = 4; k < 7; ++k) channels_.push_back(color ? number(k) : 0);
+  channels_.push_back(color ? Eigen::Vector3f(number(4), number(5), number(6)) : Eigen::Vector3f::Zero());
 }
 
 /// From the text of a corner; what counts from the end is negative.

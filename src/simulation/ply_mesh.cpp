@@ -2,48 +2,38 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <sks_detector/error.hpp>
 
-#include "io/color_values.hpp"
 #include "io/memory_stream.hpp"
 #include "io/ply_values.hpp"
+#include "io/point_colors.hpp"
 #include "simulation/file_mesh.hpp"
 
 namespace sks {
 namespace {
 
-using Places = std::array<std::size_t, 3>;
 using PlacesUv = std::array<std::size_t, 2>;
 
 /// Colours of the instances of one element, under any of their names.
 class ColorProperties {
 public:
-  explicit ColorProperties(const PlyElement& element) {
-    for (const ChannelNames& names : channel_names) {
-      places_ = plyIndices(element, names);
-      if (plyComplete(places_)) break;
-    }
-    if (!plyComplete(places_)) return;
-    const PointField::Type type = element.properties[places_[0]].type;
-    whole_ = type != PointField::float32 && type != PointField::float64;
-    is_char_ = type == PointField::int8;
-    there_ = true;
+  explicit ColorProperties(const PlyElement& element) : places_(colorChannelFields(plyValueNames(element))) {
+    for (std::size_t i = 0; places_ && i < 3; ++i) types_[i] = element.properties[(*places_)[i]].type;
   }
-  bool there() const { return there_; }
+  bool there() const { return places_.has_value(); }
   void add(const PlyInstance& instance) {
-    if (!there_) return;
-    for (const std::size_t place : places_) {
-      const double value = instance.values[place];
-      channels_.push_back(float(is_char_ && value < 0 ? value + 256 : value));  // `char` in files that mean bytes
-    }
+    if (!places_) return;
+    const auto value = [&](std::size_t i) { return float(instance.values[(*places_)[i]]); };
+    channels_.emplace_back(value(0), value(1), value(2));
   }
-  std::vector<Rgb> colors() const { return colorsOf(channels_, whole_); }
+  std::vector<Rgb> colors() const { return statedColors(channels_, types_); }
 
 private:
-  Places places_{};
-  bool there_ = false, whole_ = false, is_char_ = false;
-  std::vector<float> channels_;
+  std::optional<std::array<std::size_t, 3>> places_;
+  std::array<std::uint8_t, 3> types_{};
+  std::vector<Eigen::Vector3f> channels_;
 };
 
 PlacesUv uvOf(const PlyElement& vertices) {

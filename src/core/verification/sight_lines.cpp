@@ -15,7 +15,7 @@ constexpr double unmeasured = 0.5;       // weight of rays on which nothing was 
 constexpr float points_per_cell = 1.5f;  // edge of a cell in spacings of the model's points: few cells stay empty
 constexpr int outside = 2;               // cells from the outline to where the scene is looked at, and
 constexpr int clear = 3;                 // as many must be free of the model
-constexpr int most_cells = 1024;         // along an edge of the mask
+constexpr int widest_mask = 1024;         // along an edge of the mask
 
 /// A point of the model where the pose puts it, and the ray to it.
 struct Placed {
@@ -54,7 +54,7 @@ public:
       top_ = std::min(top_, p.row), bottom = std::max(bottom, p.row);
     }
     width_ = right - left_ + 1, height_ = bottom - top_ + 1;
-    if (width_ > most_cells || height_ > most_cells) {  // the sensor is inside of the object
+    if (width_ > widest_mask || height_ > widest_mask) {  // the sensor is inside of the object
       width_ = height_ = 0;
       return;
     }

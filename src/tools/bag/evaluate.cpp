@@ -41,7 +41,8 @@ std::map<ros::Time, ros::Time> cloudStamps(const BagFile& bag, const std::string
 }
 
 /// Stamps of the clouds where there are some, else of the detections.
-std::vector<ros::Time> stampsOf(const BagFile& bag, const BagEvaluateOptions& options, const RecordedDetections& found) {
+std::vector<ros::Time> stampsOf(const BagFile& bag, const BagEvaluateOptions& options,
+                                const RecordedDetections& found) {
   std::vector<ros::Time> stamps;
   if (!options.topic.empty() || !bag.topicsOf("sensor_msgs/PointCloud2").empty()) {
     for (const auto& [stamp, recorded] : cloudStamps(bag, findCloudTopic(bag, options.topic))) stamps.push_back(stamp);
