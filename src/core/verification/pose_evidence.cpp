@@ -13,13 +13,11 @@ namespace {
 
 constexpr float weight_radius = 0.02f;  // [m] the scale of the keypoints' local surfaces
 constexpr float color_weight = 0.5f;    // of varying colours beside varying normals
-constexpr float grazing = 0.17f;        // cosine; surfaces turned away by more than 80 degrees are hardly measured
 constexpr std::size_t rough_points = 80;
 constexpr float rough_distance = 0.015f;   // [m] rough poses are that far off
 constexpr float rough_agreement = 0.7f;    // cosine, about 45 degrees
 constexpr float rough_occlusion = 0.02f;   // [m]
 constexpr float rough_color_slack = 1.5f;  // of the tolerance: prints are off by as much as the pose
-constexpr double unmeasured = 0.5;         // weight of what should be seen where the sensor measured nothing
 
 /// One point of a stored surface in the scene.
 struct Placed {

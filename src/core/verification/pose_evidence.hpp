@@ -15,6 +15,9 @@
 
 namespace sks {
 
+constexpr float grazing = 0.17f;    ///< cosine; surfaces turned away by more than 80 degrees are hardly measured
+constexpr double unmeasured = 0.5;  ///< weight of what should be seen where the sensor measured nothing
+
 /// A scene as poses are compared with it. Refers to the surface.
 struct SceneView {
   SceneView(const Surface& scene, const Settings& settings, int threads = 1);

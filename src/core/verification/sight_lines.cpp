@@ -8,14 +8,12 @@
 namespace sks {
 namespace {
 
-constexpr float grazing = 0.17f;         // cosine; surfaces turned away by more than 80 degrees are hardly measured
 constexpr double prior_rays = 1;         // keeps the fraction of few rays near 1
 constexpr double prior_outline = 3;      // the same of the outline
-constexpr double unmeasured = 0.5;       // weight of rays on which nothing was measured
 constexpr float points_per_cell = 1.5f;  // edge of a cell in spacings of the model's points: few cells stay empty
 constexpr int outside = 2;               // cells from the outline to where the scene is looked at, and
 constexpr int clear = 3;                 // as many must be free of the model
-constexpr int widest_mask = 1024;         // along an edge of the mask
+constexpr int widest_mask = 1024;        // along an edge of the mask
 
 /// A point of the model where the pose puts it, and the ray to it.
 struct Placed {
