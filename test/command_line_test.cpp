@@ -307,7 +307,7 @@ TEST_F(CommandLine, UnusableDataSets) {
               AllOf(HasSubstr(path("toys.yaml") + ":5: "), HasSubstr("'clod'"), HasSubstr("'cloud'")));
   writeDataSet("training:\n  - {object: bumps, cloud: none.pcd, kind: view}\n");
   EXPECT_THAT(failure(train()), AllOf(HasSubstr(path("toys.yaml")), HasSubstr("none.pcd")));
-  test::writeFile(path("toys.yaml"), "name: toys\nunits: cm\nmax_distance: 0.05\ntraining: []\n");
+  test::writeFile(path("toys.yaml"), "name: toys\nunits: ell\nmax_distance: 0.05\ntraining: []\n");
   EXPECT_THAT(failure(train()), AllOf(HasSubstr(path("toys.yaml") + ":2: "), HasSubstr("units")));
   writeDataSet("scenes: []\n");
   EXPECT_THAT(failure(train()), AllOf(HasSubstr(path("toys.yaml")), HasSubstr("training")));

@@ -62,14 +62,14 @@ TEST_F(KeypointsCommand, WritesSharesDifferencesCountsAndTimes) {
   EXPECT_EQ(grid["c_rk"]["ranked"].size(), 1u);
   EXPECT_GT(grid["c_rk"]["mean"], 0.5);
   EXPECT_LT(grid["t_diff"]["median"], 0.05);
-  EXPECT_GT(grid["scene_keypoints"]["mean"], result["keypoints"]["sks-50"]["scene_keypoints"]["mean"]);
+  EXPECT_GT(grid["scene_keypoints"]["mean"], result["keypoints"]["sks-35"]["scene_keypoints"]["mean"]);
   EXPECT_GT(grid["time_ms"]["mean"], 0.0);
 }
 
 TEST_F(KeypointsCommand, DrawsRankedCurves) {
   const CommandRun found = run({"--plot", folder_.path("plots")});
   ASSERT_EQ(found.status, 0) << found.errors;
-  EXPECT_THAT(found.output, AllOf(HasSubstr("toys: 1 pairs of object and scene in 1 scenes"), HasSubstr("sks-50")));
+  EXPECT_THAT(found.output, AllOf(HasSubstr("toys: 1 pairs of object and scene in 1 scenes"), HasSubstr("sks-35")));
   EXPECT_THAT(readTextFile(folder_.path("plots/keypoints.csv")),
               AllOf(StartsWith("keypoints,rank,c_rk,t_diff\ngrid,1,"), HasSubstr("\niss,1,")));
   EXPECT_GT(std::filesystem::file_size(folder_.path("plots/keypoints.png")), 10000u);

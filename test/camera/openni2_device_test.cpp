@@ -92,7 +92,7 @@ TEST(OpenNi2Device, SaysWhichDevicesThereAre) {
   EXPECT_THAT(sks::test::errorOf(sks::ErrorCode::bad_data, [&] { open("1d27/0601"); }),
               HasSubstr("'1d27/0601' (~device) cannot be opened"));
   EXPECT_THAT(sks::test::errorOf(sks::ErrorCode::bad_file, [&] { open("/nowhere/a.oni"); }),
-              HasSubstr("/nowhere/a.oni (~device): no such file"));
+              HasSubstr("/nowhere/a.oni (~device) cannot be read: No such file or directory"));
 }
 
 TEST(OpenNi2Device, IsNotRegisteredUnlessAskedTo) {

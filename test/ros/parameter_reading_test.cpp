@@ -44,7 +44,7 @@ TEST(ParameterReading, RefusesRepeatedKeys) {
   tree["keypoints.discard"] = 0.25;
   EXPECT_THAT(read(tree).errors, ElementsAre("parameter /detector/keypoints/discard: 'keypoints.discard' is set twice; "
                                              "keep one; all settings of the detector stay at their defaults"));
-  EXPECT_EQ(read(tree).configuration.detector.keypoints.discard, 0.5);
+  EXPECT_EQ(read(tree).configuration.detector.keypoints.discard, sks::Settings().keypoints.discard);
 }
 
 TEST(ParameterReading, IgnoresDeepNests) {

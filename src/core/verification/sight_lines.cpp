@@ -91,7 +91,7 @@ private:
 };
 
 /// Whether the surface that the scene has at the edge of the model goes on beyond it.
-enum class Beyond { ends, goes_on, unknown };
+enum class Beyond { ends, goes_on, unmeasured, occluded };
 
 Beyond beyondOutline(const Placed& p, const RangeImage::Cell& inside, const Silhouette& silhouette, int dx, int dy,
                      const RangeImage& image, const VerificationSettings& settings) {
@@ -101,9 +101,9 @@ Beyond beyondOutline(const Placed& p, const RangeImage::Cell& inside, const Silh
   const Eigen::Vector3f direction(q.x() / q.z() + step * float(dx), q.y() / q.z() + step * float(dy), 1);
   const Eigen::Vector3f ray = projection.axes.transpose() * direction.normalized();
   const Sighting seen = image.look(projection.origin + p.range * ray, float(settings.occlusion_distance));
-  if (!seen.hasPoint()) return Beyond::unknown;
+  if (!seen.hasPoint()) return Beyond::unmeasured;
   if ((seen.cell->position() - projection.origin).norm() < p.range - float(settings.occlusion_distance))
-    return Beyond::unknown;  // something in front
+    return Beyond::occluded;
   const float apart = std::abs(inside.normal().dot(seen.cell->position() - inside.position()));
   const bool smooth = apart < 0.5f * float(settings.support_distance) &&
                       inside.normal().dot(seen.cell->normal()) > float(std::cos(settings.support_angle));
@@ -155,8 +155,9 @@ SightLines lookAlongRays(const ModelSurface& model, const SceneView& scene, cons
     for (const auto& [dx, dy] : directions) {
       if (!silhouette.endsAt(p, dx, dy)) continue;
       const Beyond beyond = beyondOutline(p, *seen.cell, silhouette, dx, dy, scene.range_image, settings);
-      lines.ends += beyond == Beyond::ends;
-      lines.goes_on += beyond == Beyond::goes_on;
+      if (beyond == Beyond::ends) lines.ends += 1;
+      if (beyond == Beyond::unmeasured) lines.ends += unmeasured;
+      if (beyond == Beyond::goes_on) lines.goes_on += 1;
     }
   }
   if (!differences.empty()) lines.color_shift = medianOf(differences);

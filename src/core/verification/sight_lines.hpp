@@ -17,8 +17,9 @@ namespace sks {
 struct SightLines {
   double confirmed = 0;  ///< rays to the visible surface of the model that met the scene there, with its normal
   double missed = 0;     ///< rays that met something else; half where nothing was measured
-  int ends = 0;          ///< rays just beyond the model's outline where the scene ends or bends too
-  int goes_on = 0;       ///< ... where the scene's surface goes on: the model is a piece of something larger
+  /// Rays just beyond the model's outline where the scene ends or bends too; half where nothing was measured.
+  double ends = 0;
+  double goes_on = 0;  ///< ... where the scene's surface goes on: the model is a piece of something larger
   /// Median difference in colour, scene less model, over the confirmed rays; as in Surface. None without colour.
   std::optional<Eigen::Vector3f> color_shift;
 
