@@ -37,7 +37,7 @@ class ParametersTest(unittest.TestCase):
                 for reason in reasons:
                     status.wait_for(lambda s: reason in s.last_error, reason)
                 support.wait_for(lambda: rospy.has_param("/detector/threads"), "the parameters in force")
-                self.assertEqual(rospy.get_param("/detector/keypoints/discard"), 0.5)
+                self.assertEqual(rospy.get_param("/detector/keypoints/discard"), 0.35)
                 self.assertEqual(rospy.get_param("/detector/keypoints/grid_size"), 0.02)
                 self.assertEqual(rospy.get_param("/detector/sanitize/max_range"), 20)
                 self.assertEqual(rospy.get_param("/detector/tf_timeout"), 0.2)

@@ -27,7 +27,7 @@ class ReconfigureTest(unittest.TestCase):
     def test_describes_every_setting(self):
         described = {p["name"]: p for p in self.client.get_parameter_descriptions(support.PATIENCE)}
         discard = described["keypoints.discard"]
-        self.assertEqual((discard["type"], discard["min"], discard["max"], discard["default"]), ("double", 0, 0.99, 0.5))
+        self.assertEqual((discard["type"], discard["min"], discard["max"], discard["default"]), ("double", 0, 0.99, 0.35))
         self.assertIn("[m]", described["keypoints.grid_size"]["description"])
         self.assertIn("fixed by the codebook", described["descriptor.radius"]["description"])
         detector = described["keypoints.detector"]

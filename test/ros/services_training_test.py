@@ -215,13 +215,15 @@ class TrainingServicesTest(services_support.ServicesTest):
             with open(path, "w") as file:
                 file.write("newmtl m\nKd 1 0 0\n")
         self.write_box("box.mtl")
-        self.succeed("train", dataset="box.yaml")
-        self.assertEqual(self.succeed("info").descriptor, "cshot")
+        colored = {"dataset": "box.yaml", "settings": ["descriptor.type=cshot"]}
+        self.succeed("train", **colored)
         os.remove(inside)
         for name in ("../box.mtl", outside):
             self.write_box(name)
+            reply = self.node.call("train", **colored)
+            self.assertFalse(reply.success)
+            self.assertIn("the cloud has none", reply.message)
             self.succeed("train", dataset="box.yaml")
-            self.assertEqual(self.succeed("info").descriptor, "shot", "without its colour")
 
     def test_pipes_are_not_waited_for(self):
         os.mkfifo(os.path.join(self.node.datasets, "pipe.yaml"))

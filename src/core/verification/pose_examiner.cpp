@@ -48,7 +48,7 @@ PoseExaminer::PoseExaminer(const VerifiedModels& models, const SceneView& scene,
   }
 }
 
-Examined PoseExaminer::glance(Hypothesis hypothesis) const {
+Examined PoseExaminer::examineAlongRays(Hypothesis hypothesis) const {
   PoseEvidence pose;
   hypothesis.evidence = evidenceAt(hypothesis, pose, first_points, CorrespondenceSearch::along_ray);
   return {std::move(hypothesis), std::move(pose.confirming), {}};

@@ -41,7 +41,7 @@ public:
                const Settings& settings);
 
   /// A first look, along the sensor's rays: evidence without sight lines.
-  Examined glance(Hypothesis hypothesis) const;
+  Examined examineAlongRays(Hypothesis hypothesis) const;
   /// The evidence of the pose as it is. @param most_points of the stored surface that are examined
   Examined examine(Hypothesis hypothesis, std::size_t most_points) const;
   /// After some last rounds of ICP with nearest points, by all points of the stored surface.

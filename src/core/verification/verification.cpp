@@ -117,7 +117,7 @@ std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector
     hypothesis.view = candidate.view;
     hypothesis.T_scene_model =
         refineAlongRays(codebook.views[candidate.view], scene, settings.refinement, candidate.T_scene_model);
-    examined[i] = examiner.glance(std::move(hypothesis));
+    examined[i] = examiner.examineAlongRays(std::move(hypothesis));
     if (examined[i].hypothesis.evidence < lowest_fraction * half) continue;
     examined[i] = examiner.examine(std::move(examined[i].hypothesis), first_points);
   }

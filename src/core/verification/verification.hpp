@@ -15,8 +15,9 @@ namespace sks {
 
 /// Finds poses that the scene's surface confirms (docs/method.md, beyond the paper). Each correspondence is a pose by
 /// itself, since its local reference frames give the rotation. The most promising ones are refined by ICP and compared
-/// with the stored surface: what is confirmed, what is occluded, what should be seen but is not. Hypotheses for the
-/// same part of the scene compete. Deterministic; immutable once built.
+/// with the stored surface: what is confirmed, what is occluded, what should be seen but is not; and whether the
+/// sensor's own rays and the outline of the whole model agree. Hypotheses for the same part of the scene compete.
+/// Deterministic; immutable once built; thread-safe.
 class SurfaceVerifier : public VerifierStage {
 public:
   explicit SurfaceVerifier(std::shared_ptr<const Codebook> codebook);
