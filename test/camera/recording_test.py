@@ -41,7 +41,7 @@ class RecordingTest(unittest.TestCase):
         if os.path.exists(self.recording):
             os.remove(self.recording)
         for node in ('again_and_again', 'once'):
-            self.diagnostics.wait(node, 'no such file', ERROR)
+            self.diagnostics.wait(node, 'No such file', ERROR)
 
         again_and_again = Recorder('/again_and_again/points', PointCloud2)
         once = Recorder('/once/points', PointCloud2)
