@@ -128,7 +128,7 @@ bool DataSetReader::isMissing(const YamlMap& map) const {
 std::string DataSetReader::cloudPath(const YamlMap& map) const {
   if (map.text("cloud").find('\0') != std::string::npos) map.fail("cloud", "contains a null character");
   if (isBuiltin(map.text("cloud"))) return map.text("cloud");
-  const std::string path = resolve(map.text("cloud"));
+  std::string path = resolve(map.text("cloud"));
   if (!isMissing(map)) return path;
   std::error_code ignored;
   const std::string place = file_ + ":" + std::to_string(map.at("cloud").Mark().line + 1) + ": cloud '" + path;

@@ -29,15 +29,16 @@ bool knowsNoLocks(int error) {
 
 }  // namespace
 
-FileLock::FileLock(const std::string& path, double longest_wait) {
+FileLock::FileLock(const std::string& path, double longest_wait)
+    : file_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666)) {
+  const int open_error = errno;
   const std::string folder = std::filesystem::path(path).parent_path().string();
   const auto fail = [&](const std::string& reason) {
     if (file_ >= 0) ::close(file_);
     throw Error(ErrorCode::bad_file, "cannot change what is in '" + folder + "': " + reason);
   };
-  file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
   if (file_ < 0) {
-    fail("'" + path + "': " + std::generic_category().message(errno) + "; choose a folder that can be written to");
+    fail("'" + path + "': " + std::generic_category().message(open_error) + "; choose a folder that can be written to");
   }
   const auto end = LockClock::now() + std::chrono::duration<double>(longest_wait);
   while (::flock(file_, LOCK_EX | LOCK_NB) != 0) {

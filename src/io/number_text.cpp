@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cctype>
+#include <clocale>
 #include <cstdlib>
 #include <limits>
 #include <locale>
-
-#include <locale.h>
 
 namespace sks {
 namespace {

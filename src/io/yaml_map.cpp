@@ -62,7 +62,8 @@ std::string YamlMap::text(const std::string& key) const {
 }
 
 std::string YamlMap::name(const std::string& key) const {
-  const std::string value = text(key), fault = nameFault(value);
+  std::string value = text(key);
+  const std::string fault = nameFault(value);
   if (!fault.empty()) fail(key, "is '" + shown(value, 60) + "', which is refused: " + fault);
   return value;
 }
