@@ -37,9 +37,7 @@ public:
       placed.range = ray.norm();
       placed.index = i;
       if (!(-placed.normal.dot(ray) > grazing * placed.range && p.z() > RangeImage::rim * placed.range)) continue;
-      if (facing.empty()) {
-        cell_ = points_per_cell * model.resolution / placed.range;
-      }
+      if (facing.empty()) cell_ = points_per_cell * model.resolution / placed.range;  // about the same for all
       placed.column = int(std::floor(p.x() / p.z() / cell_));
       placed.row = int(std::floor(p.y() / p.z() / cell_));
       facing.push_back(placed);

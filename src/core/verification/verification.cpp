@@ -2,8 +2,6 @@
 #include "core/verification/verification.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
 #include <tuple>
 
 #include "core/verification/color_shift.hpp"
