@@ -13,8 +13,9 @@ namespace {
 
 constexpr double area_unit = 1e-4;      // [m^2] areas enter the evidence in cm^2
 constexpr double prior_area = 0.25e-4;  // [m^2] keeps the fraction of a very small area low
-constexpr double color_gain = 1.4;      // of evidence: at right poses colours agree to about 0.8, and that to 3/2
-constexpr double well_sampled = 4;      // spacings of points within the radius of a normal
+constexpr double color_gain = 1.8;      // of evidence: what right poses lose by colours that agree to about 0.8
+constexpr std::size_t first_points = 250, last_points = 1500;  // examined to choose between poses, and of the chosen
+constexpr double well_sampled = 4;                             // spacings of points within the radius of a normal
 
 /// Of ICP with nearest pairs, for poses that are a fraction of a millimetre off.
 RefinementSettings lastRounds(RefinementSettings settings) {
@@ -54,11 +55,19 @@ Examined PoseExaminer::examineAlongRays(Hypothesis hypothesis) const {
   return {std::move(hypothesis), std::move(pose.confirming), {}};
 }
 
-Examined PoseExaminer::examine(Hypothesis hypothesis, std::size_t most_points) const {
+Examined PoseExaminer::examineRoughly(Hypothesis hypothesis) const {
   PoseEvidence pose;
-  hypothesis.evidence = evidenceAt(hypothesis, pose, most_points, CorrespondenceSearch::nearby);
+  hypothesis.evidence = evidenceAt(hypothesis, pose, first_points, CorrespondenceSearch::nearby);
   SightLines lines = sightLines(hypothesis);
   hypothesis.evidence *= lines.agreement();
+  return {std::move(hypothesis), std::move(pose.confirming), std::move(lines)};
+}
+
+Examined PoseExaminer::examine(Hypothesis hypothesis) const {
+  PoseEvidence pose;
+  hypothesis.evidence = evidenceAt(hypothesis, pose, last_points, CorrespondenceSearch::nearby);
+  SightLines lines = sightLines(hypothesis);
+  hypothesis.evidence *= lines.agreement() * lines.pattern;
   return {std::move(hypothesis), std::move(pose.confirming), std::move(lines)};
 }
 
@@ -74,7 +83,9 @@ Hypothesis PoseExaminer::bestTurned(const Hypothesis& hypothesis) const {
   if (!scene_.comparesColor(view) || models_.surfaces[hypothesis.view]->views.size() < 2) return hypothesis;
   const auto evidenceAlongRays = [&](Hypothesis& h) {
     PoseEvidence pose;
-    return evidenceAt(h, pose, last_points, CorrespondenceSearch::along_ray) * sightLines(h).agreement();
+    const double evidence = evidenceAt(h, pose, last_points, CorrespondenceSearch::along_ray);
+    const SightLines lines = sightLines(h);
+    return evidence * lines.agreement() * lines.pattern;
   };
   Hypothesis best = hypothesis;
   double most = evidenceAlongRays(best);

@@ -42,8 +42,10 @@ public:
 
   /// A first look, along the sensor's rays: evidence without sight lines.
   Examined examineAlongRays(Hypothesis hypothesis) const;
-  /// The evidence of the pose as it is. @param most_points of the stored surface that are examined
-  Examined examine(Hypothesis hypothesis, std::size_t most_points) const;
+  /// The evidence of a pose that is about right, to choose between poses.
+  Examined examineRoughly(Hypothesis hypothesis) const;
+  /// The evidence of an exact pose, in which the patterns of colours must agree too.
+  Examined examine(Hypothesis hypothesis) const;
   /// After some last rounds of ICP with nearest points, by all points of the stored surface.
   Hypothesis refined(Hypothesis hypothesis) const;
   /// Of the refined pose and those in which the object's box lies as it does in this one, that with most evidence along
@@ -63,7 +65,5 @@ private:
   const Settings& settings_;
   std::vector<std::optional<VoteDensity>> densities_;  // of each object that has votes
 };
-
-constexpr std::size_t first_points = 250, last_points = 1500;  ///< examined to choose between poses, and of the chosen
 
 }  // namespace sks

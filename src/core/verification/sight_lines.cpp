@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/verification/color_pattern.hpp"
+
 namespace sks {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr int clear = 3;                 // as many must be free of the model
 constexpr int widest_mask = 1024;        // along an edge of the mask
 
 /// A point of the model where the pose puts it, and the ray to it.
-struct Placed {
+struct RaySample {
   Eigen::Vector3f point, normal;
   float range = 0;
   int column = 0, row = 0;
@@ -28,9 +30,9 @@ class Silhouette {
 public:
   Silhouette(const ModelSurface& model, const SceneView& scene, const Eigen::Isometry3f& T, float self_occlusion) {
     const RangeImage::Projection& image = scene.range_image.projection();
-    std::vector<Placed> facing;
+    std::vector<RaySample> facing;
     for (std::size_t i = 0; i < model.points.size(); ++i) {
-      Placed placed;
+      RaySample placed;
       placed.point = T * model.points[i];
       placed.normal = T.linear() * model.normals[i];
       const Eigen::Vector3f ray = placed.point - image.origin, p = image.axes * ray;
@@ -45,7 +47,7 @@ public:
     if (facing.empty()) return;
     int right = facing[0].column, bottom = facing[0].row;
     left_ = right, top_ = bottom;
-    for (const Placed& p : facing) {
+    for (const RaySample& p : facing) {
       left_ = std::min(left_, p.column), right = std::max(right, p.column);
       top_ = std::min(top_, p.row), bottom = std::max(bottom, p.row);
     }
@@ -55,20 +57,20 @@ public:
       return;
     }
     std::vector<float> nearest(std::size_t(width_) * std::size_t(height_), std::numeric_limits<float>::infinity());
-    for (const Placed& p : facing) nearest[at(p.column, p.row)] = std::min(nearest[at(p.column, p.row)], p.range);
+    for (const RaySample& p : facing) nearest[at(p.column, p.row)] = std::min(nearest[at(p.column, p.row)], p.range);
     covered_.assign(nearest.size(), 0);
-    for (const Placed& p : facing) {
+    for (const RaySample& p : facing) {
       if (p.range > nearest[at(p.column, p.row)] + self_occlusion) continue;
       covered_[at(p.column, p.row)] = 1;
       visible_.push_back(p);
     }
   }
 
-  const std::vector<Placed>& visible() const { return visible_; }
+  const std::vector<RaySample>& visible() const { return visible_; }
   float cell() const { return cell_; }
 
   /// Whether the model ends at a point of it in a direction of the image.
-  bool endsAt(const Placed& p, int dx, int dy) const {
+  bool endsAt(const RaySample& p, int dx, int dy) const {
     for (int k = 1; k <= clear; ++k) {
       const int column = p.column + k * dx, row = p.row + k * dy;
       const bool within = column >= left_ && row >= top_ && column < left_ + width_ && row < top_ + height_;
@@ -85,13 +87,13 @@ private:
   float cell_ = 1;
   int left_ = 0, top_ = 0, width_ = 0, height_ = 0;
   std::vector<char> covered_;
-  std::vector<Placed> visible_;
+  std::vector<RaySample> visible_;
 };
 
 /// Whether the surface that the scene has at the edge of the model goes on beyond it.
 enum class Beyond { ends, goes_on, unmeasured, occluded };
 
-Beyond beyondOutline(const Placed& p, const RangeImage::Cell& inside, const Silhouette& silhouette, int dx, int dy,
+Beyond beyondOutline(const RaySample& p, const RangeImage::Cell& inside, const Silhouette& silhouette, int dx, int dy,
                      const RangeImage& image, const VerificationSettings& settings) {
   const RangeImage::Projection& projection = image.projection();
   const Eigen::Vector3f q = projection.axes * (p.point - projection.origin);
@@ -135,7 +137,8 @@ SightLines lookAlongRays(const ModelSurface& model, const SceneView& scene, cons
   const Silhouette silhouette(model, scene, T_scene_model.cast<float>(), occlusion);
   const bool colored = scene.color_tolerance > 0 && !model.colors.empty();
   std::vector<Eigen::Vector3f> differences;
-  for (const Placed& p : silhouette.visible()) {
+  ColorPattern pattern;
+  for (const RaySample& p : silhouette.visible()) {
     const Sighting seen = scene.range_image.look(p.point, occlusion);
     const bool confirmed = seen.hasPoint() && p.normal.dot(seen.cell->normal()) > agreement &&
                            (seen.cell->position() - p.point).squaredNorm() <= distance * distance;
@@ -147,7 +150,10 @@ SightLines lookAlongRays(const ModelSurface& model, const SceneView& scene, cons
     if (planeExtentAt(scene.planes, seen.cell->position(), seen.cell->normal()) > object_size) continue;
     lines.confirmed += 1;
     if (colored) {
-      differences.push_back(scene.surface.colorAt(scene.range_image.pointOf(seen)) - model.colors[p.index]);
+      const Eigen::Vector3f &color = model.colors[p.index],
+                            seen_color = scene.surface.colorAt(scene.range_image.pointOf(seen));
+      differences.push_back(seen_color - color);
+      pattern.add(color, seen_color);
     }
     constexpr int directions[4][2] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
     for (const auto& [dx, dy] : directions) {
@@ -158,7 +164,10 @@ SightLines lookAlongRays(const ModelSurface& model, const SceneView& scene, cons
       if (beyond == Beyond::goes_on) lines.goes_on += 1;
     }
   }
-  if (!differences.empty()) lines.color_shift = medianOf(differences);
+  if (!differences.empty()) {
+    lines.color_shift = medianOf(differences);
+    lines.pattern = pattern.agreement(double(scene.color_tolerance));
+  }
   return lines;
 }
 

@@ -22,8 +22,9 @@ struct SightLines {
   double goes_on = 0;  ///< ... where the scene's surface goes on: the model is a piece of something larger
   /// Median difference in colour, scene less model, over the confirmed rays; as in Surface. None without colour.
   std::optional<Eigen::Vector3f> color_shift;
+  double pattern = 1;  ///< agreement of the colours' patterns over the confirmed rays, in (0, 1]; of an exact pose
 
-  /// In (0, 1]: the evidence is multiplied by it.
+  /// Of rays and outline, in (0, 1]: the evidence is multiplied by it.
   double agreement() const;
 };
 

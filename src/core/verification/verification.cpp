@@ -117,7 +117,7 @@ std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector
         refineAlongRays(codebook.views[candidate.view], scene, settings.refinement, candidate.T_scene_model);
     examined[i] = examiner.examineAlongRays(std::move(hypothesis));
     if (examined[i].hypothesis.evidence < lowest_fraction * half) continue;
-    examined[i] = examiner.examine(std::move(examined[i].hypothesis), first_points);
+    examined[i] = examiner.examineRoughly(std::move(examined[i].hypothesis));
   }
   std::sort(examined.begin(), examined.end(), better);
   examined = suppressNonMaxima(std::move(examined), codebook, settings);
@@ -126,13 +126,13 @@ std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < examined.size(); ++i) {
     if (!isPlausible(examined[i])) continue;
-    examined[i] = examiner.examine(examiner.refined(std::move(examined[i].hypothesis)), last_points);
+    examined[i] = examiner.examine(examiner.refined(std::move(examined[i].hypothesis)));
   }
   scene.color_shift = sceneColorShift(examined, color_doubt * half);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < examined.size(); ++i) {
     if (!isPlausible(examined[i]) || !scene.comparesColor(codebook.views[examined[i].hypothesis.view])) continue;
-    examined[i] = examiner.examine(examiner.bestTurned(examined[i].hypothesis), last_points);
+    examined[i] = examiner.examine(examiner.bestTurned(examined[i].hypothesis));
   }
   std::sort(examined.begin(), examined.end(), better);
   resolveConflicts(examined, scene.surface, float(settings.verification.support_distance));
