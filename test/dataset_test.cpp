@@ -65,6 +65,7 @@ scenes:
         reference: ../views/duck0.pcd
         pose: [0, -1, 0, 10, 1, 0, 0, 20, 0, 0, 1, 30, 0, 0, 0, 1]
         visibility: 0.7
+        points: 812
     ignore: [swan]
   - {name: b, cloud: scenes/b.pcd, objects: []}
 tests:
@@ -91,6 +92,7 @@ tests:
   EXPECT_TRUE(truth.position.isApprox(Eigen::Vector3d(0.1, 0, 0.5)));
   EXPECT_EQ(truth.reference, data_set.training[0].source);
   EXPECT_EQ(truth.visibility, 0.7);
+  EXPECT_EQ(truth.points, 812u);
   ASSERT_TRUE(truth.T_scene_reference);
   EXPECT_TRUE((*truth.T_scene_reference * Eigen::Vector3d(1, 0, 0)).isApprox(Eigen::Vector3d(0.01, 1.02, 0.03), 1e-12));
   EXPECT_THAT(data_set.scenes[1].objects, IsEmpty());
@@ -176,6 +178,7 @@ TEST_F(DataSetFile, ValuesOfTheWrongKindAreRefused) {
   EXPECT_THAT(refusal(withDuck("position: [0, 0]\n")), HasSubstr("must be a list of 3 finite numbers"));
   EXPECT_THAT(refusal(withDuck("visibility: 0.5\n")), HasSubstr("needs the key 'position'"));
   EXPECT_THAT(refusal(withDuck("position: [0, 0, 1]\n        visibility: 70\n")), HasSubstr("must lie in [0, 1]"));
+  EXPECT_THAT(refusal(withDuck("position: [0, 0, 1]\n        points: 7.5\n")), HasSubstr("must be a count"));
   EXPECT_THAT(refusal("name: toys\nunits: m\nmax_distance: far\nscenes: [1]\n"), HasSubstr("must be a finite number"));
   EXPECT_THAT(refusal("name: toys\nunits: m\nmax_distance: 0\nscenes: [1]\n"), HasSubstr("greater than 0 m"));
   EXPECT_THAT(refusal("name: toys\nunits: m\nscenes: [1]\n"), HasSubstr("needs the key 'max_distance'"));

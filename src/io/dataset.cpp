@@ -31,6 +31,7 @@ bool isBuiltin(const std::string& path) {
 
 constexpr double largest_max_distance = 100, farthest_position = 1e4;  // [m]
 constexpr double rigid_tolerance = 1e-3;                               // of each entry of R^T R - I and of the last row
+constexpr double most_points = 1e9;
 
 /// Reads the parts of one file; keeps what all of them need.
 class DataSetReader {
@@ -195,8 +196,9 @@ void DataSetReader::readScene(const YamlMap& map) {
   }
   scene.path = cloudPath(map);
   for (const YAML::Node& item : map.list("objects")) {
-    scene.objects.push_back(readGroundTruth(mapOf(item, "an object of scene '" + scene.name + "'",
-                                                  {"object", "position", "reference", "pose", "visibility"})));
+    scene.objects.push_back(
+        readGroundTruth(mapOf(item, "an object of scene '" + scene.name + "'",
+                              {"object", "position", "reference", "pose", "visibility", "points"})));
   }
   std::set<std::string> with_truth;
   for (const GroundTruth& truth : scene.objects) with_truth.insert(truth.object);
@@ -223,6 +225,13 @@ GroundTruth DataSetReader::readGroundTruth(const YamlMap& map) {
   if (map.has("visibility")) {
     truth.visibility = map.number("visibility");
     if (*truth.visibility < 0 || *truth.visibility > 1) map.fail("visibility", "must lie in [0, 1]");
+  }
+  if (map.has("points")) {
+    const double points = map.number("points");
+    if (!(points >= 0 && points <= most_points && points == std::floor(points))) {
+      map.fail("points", "must be a count, 0 or more");
+    }
+    truth.points = std::size_t(points);
   }
   warnAboutReference(map, truth);
   return truth;

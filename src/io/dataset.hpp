@@ -34,6 +34,7 @@ struct GroundTruth {
   std::optional<Eigen::Isometry3d> T_scene_reference;  ///< 6-D pose of the reference's frame [m]
   std::optional<Symmetry> symmetry;                    ///< of the reference, where its training entry declares one
   std::optional<double> visibility;                    ///< fraction of the surface that is not occluded, in [0, 1]
+  std::optional<std::size_t> points;                   ///< of the scene's cloud that lie on it
 };
 
 /// One scene with all the instances that are in it.

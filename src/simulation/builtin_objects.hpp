@@ -8,8 +8,12 @@
 
 namespace sks {
 
-/// Names of the household objects that the program makes itself: mug, bottle, bowl, box, drill, duck.
-std::vector<std::string> builtinNames();
+/// Groups of the objects that the program makes itself: household (mug, bottle, bowl, box, drill, duck), small (30 to
+/// 40 mm), flat (6 mm high, 50 to 200 mm wide) and thin (13 mm thick, 150 to 400 mm long).
+std::vector<std::string> builtinGroups();
+
+/// Names of the objects of a group. @throws Error(bad_usage) naming the groups
+std::vector<std::string> builtinNames(const std::string& group = "household");
 
 /// One of them, coloured, standing on z = 0 around the z axis. @throws Error(bad_usage) naming those that exist
 Mesh builtinObject(const std::string& name);

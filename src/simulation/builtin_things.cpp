@@ -9,24 +9,9 @@ namespace {
 
 constexpr float cell = 0.003f;  // between vertices, which carry the colours [m]
 
-Mesh movedTo(Mesh mesh, float x, float y, float z) {
-  return transformed(std::move(mesh), Eigen::Isometry3f(Eigen::Translation3f(x, y, z)));
-}
-
 Mesh stretched(Mesh mesh, const Eigen::Vector3f& factors) {
   for (Eigen::Vector3f& v : mesh.vertices) v = v.cwiseProduct(factors);
   return mesh;
-}
-
-/// A closed cylinder from one point to another.
-Mesh rod(const Eigen::Vector3f& from, const Eigen::Vector3f& to, float from_radius, float to_radius,
-         const Paint& paint) {
-  const std::vector<Eigen::Vector3f> path = subdivided<Eigen::Vector3f>({from, to}, 0.01f);
-  std::vector<float> radius;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    radius.push_back(from_radius + (to_radius - from_radius) * float(i) / float(path.size() - 1));
-  }
-  return makeTube(path, radius, 40, paint);
 }
 
 }  // namespace
@@ -60,12 +45,12 @@ Mesh makeDrill() {
       makeBox(
           {0.085f, 0.065f, 0.028f}, [=](const Eigen::Vector3f& p) { return p.x() > 0.02f ? red : black; }, cell),
       0.005f, 0, 0.014f);
-  append(drill, rod({0, 0, 0.02f}, {0.008f, 0, 0.125f}, 0.019f, 0.017f, plain(black)));
-  append(drill, rod({-0.055f, 0, 0.145f}, {0.065f, 0, 0.145f}, 0.029f, 0.027f, [=](const Eigen::Vector3f& p) {
+  append(drill, makeRod({0, 0, 0.02f}, {0.008f, 0, 0.125f}, 0.019f, 0.017f, plain(black)));
+  append(drill, makeRod({-0.055f, 0, 0.145f}, {0.065f, 0, 0.145f}, 0.029f, 0.027f, [=](const Eigen::Vector3f& p) {
            return p.x() < -0.035f || (p.z() > 0.16f && p.x() < 0.02f) ? black : yellow;
          }));
-  append(drill, rod({0.06f, 0, 0.145f}, {0.1f, 0, 0.145f}, 0.02f, 0.012f, plain(black)));
-  append(drill, rod({0.095f, 0, 0.145f}, {0.15f, 0, 0.145f}, 0.004f, 0.004f, plain(steel)));
+  append(drill, makeRod({0.06f, 0, 0.145f}, {0.1f, 0, 0.145f}, 0.02f, 0.012f, plain(black)));
+  append(drill, makeRod({0.095f, 0, 0.145f}, {0.15f, 0, 0.145f}, 0.004f, 0.004f, plain(steel)));
   append(drill, movedTo(makeBox({0.012f, 0.014f, 0.03f}, plain(red), cell), 0.026f, 0, 0.105f));
   return drill;
 }
@@ -87,7 +72,7 @@ Mesh makeDuck() {
                                   }),
                        0.03f, 0, 0.092f));
   append(duck, movedTo(stretched(makeSphere(0.016f, 4, plain(orange)), {1.1f, 1, 0.4f}), 0.064f, 0, 0.087f));
-  append(duck, rod({-0.045f, 0, 0.045f}, {-0.074f, 0, 0.072f}, 0.022f, 0.004f, plain(yellow)));
+  append(duck, makeRod({-0.045f, 0, 0.045f}, {-0.074f, 0, 0.072f}, 0.022f, 0.004f, plain(yellow)));
   return duck;
 }
 

@@ -128,10 +128,13 @@ void addRoom(Renderer& renderer, const Eigen::Isometry3d& T_table_camera, const 
   add({0.05f, 4, 2}, color, pose);
 }
 
-std::vector<std::size_t> pixelCounts(const Rendering& view, std::size_t things) {
+/// How many pixels each thing has in the picture. @param measured only those with a depth
+std::vector<std::size_t> pixelCounts(const Rendering& view, std::size_t things, bool measured = false) {
   std::vector<std::size_t> counts(things, 0);
-  for (const std::int32_t i : view.instance) {
-    if (i >= 0 && std::size_t(i) < things) ++counts[std::size_t(i)];
+  for (std::size_t pixel = 0; pixel < view.instance.size(); ++pixel) {
+    const std::int32_t i = view.instance[pixel];
+    if (i < 0 || std::size_t(i) >= things || (measured && !view.cloud.points[pixel].allFinite())) continue;
+    ++counts[std::size_t(i)];
   }
   return counts;
 }
@@ -196,10 +199,11 @@ SimulatedScene simulateScene(const std::vector<SceneModel>& models, const SceneO
   scene.view = renderer.render(camera, scene.T_table_camera, number, options.threads);
   const std::vector<double> visible =
       visibilities(renderer, things, options, scene.T_table_camera, scene.view, renderer.instanceCount());
+  const std::vector<std::size_t> points = pixelCounts(scene.view, things.size(), true);
   for (std::size_t i = 0; i < things.size(); ++i) {
     if (things[i].model < 0) continue;
     scene.objects.push_back(
-        {std::size_t(things[i].model), scene.T_table_camera.inverse() * T_table_thing[i], visible[i]});
+        {std::size_t(things[i].model), scene.T_table_camera.inverse() * T_table_thing[i], visible[i], points[i]});
   }
   return scene;
 }

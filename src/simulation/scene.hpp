@@ -41,6 +41,7 @@ struct ScenePlacement {
   std::size_t model = 0;                                             ///< index into the models
   Eigen::Isometry3d T_camera_model = Eigen::Isometry3d::Identity();  ///< exact, camera's optical frame
   double visibility = 0;  ///< pixels of it that are seen / pixels that would be seen were it alone; 0 outside the image
+  std::size_t points = 0;  ///< of the cloud that lie on it
 };
 
 /// A cluttered table as the camera sees it.

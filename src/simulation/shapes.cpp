@@ -131,6 +131,16 @@ Mesh makeTube(const std::vector<Eigen::Vector3f>& path, const std::vector<float>
   return mesh;
 }
 
+Mesh makeRod(const Eigen::Vector3f& from, const Eigen::Vector3f& to, float from_radius, float to_radius,
+             const Paint& paint, float step) {
+  const std::vector<Eigen::Vector3f> path = subdivided<Eigen::Vector3f>({from, to}, step);
+  std::vector<float> radius;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    radius.push_back(from_radius + (to_radius - from_radius) * float(i) / float(path.size() - 1));
+  }
+  return makeTube(path, radius, 40, paint);
+}
+
 template <typename Point>
 std::vector<Point> subdivided(const std::vector<Point>& points, float step) {
   std::vector<Point> result{points.front()};
@@ -154,6 +164,10 @@ void append(Mesh& mesh, const Mesh& more) {
 Mesh transformed(Mesh mesh, const Eigen::Isometry3f& transform) {
   for (Eigen::Vector3f& v : mesh.vertices) v = transform * v;
   return mesh;
+}
+
+Mesh movedTo(Mesh mesh, float x, float y, float z) {
+  return transformed(std::move(mesh), Eigen::Isometry3f(Eigen::Translation3f(x, y, z)));
 }
 
 std::vector<Eigen::Vector3d> geodesicDirections(int count) {

@@ -29,6 +29,10 @@ Mesh makeRevolution(const std::vector<Eigen::Vector2f>& profile, int segments, c
 Mesh makeTube(const std::vector<Eigen::Vector3f>& path, const std::vector<float>& radius, int segments,
               const Paint& paint);
 
+/// A closed cylinder or cone from one point to another. @param step between its rings [m]
+Mesh makeRod(const Eigen::Vector3f& from, const Eigen::Vector3f& to, float from_radius, float to_radius,
+             const Paint& paint, float step = 0.01f);
+
 /// A line through the given points with steps of at most `step` [m], for profiles and paths.
 template <typename Point>
 std::vector<Point> subdivided(const std::vector<Point>& points, float step);
@@ -38,6 +42,7 @@ void append(Mesh& mesh, const Mesh& more);
 
 /// Moves a mesh.
 Mesh transformed(Mesh mesh, const Eigen::Isometry3f& transform);
+Mesh movedTo(Mesh mesh, float x, float y, float z);
 
 /// Directions that are spread evenly: the vertices of a subdivided icosahedron for 12, 42, 162, 642 and 2562 of them,
 /// points of a spiral for other counts.

@@ -28,6 +28,7 @@ std::string groundTruthYaml(const GroundTruth& truth) {
     text += "        pose: " + yamlList(std::vector<double>(pose.data(), pose.data() + 16)) + "\n";
   }
   if (truth.visibility) text += "        visibility: " + number(*truth.visibility) + "\n";
+  if (truth.points) text += "        points: " + std::to_string(*truth.points) + "\n";
   return text;
 }
 
@@ -62,11 +63,14 @@ std::string sceneYaml(const Scene& scene) {
   return text + "]\n";
 }
 
-Scene groundTruthScene(const std::string& name, const std::vector<Detection>& truth) {
+Scene groundTruthScene(const std::string& name, const std::vector<Detection>& truth,
+                       const std::vector<std::size_t>& points, std::size_t least_points) {
   Scene scene;
   scene.name = name;
-  for (const Detection& object : truth) {
-    if (object.score > 0 && object.score < least_visibility) {
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const Detection& object = truth[i];
+    const bool hidden = object.score > 0 && object.score < least_visibility;
+    if (hidden || (!points.empty() && points[i] < least_points)) {
       scene.ignore.push_back(object.object);
       continue;
     }
@@ -76,6 +80,7 @@ Scene groundTruthScene(const std::string& name, const std::vector<Detection>& tr
     entry.reference = object.view;
     if (!object.view.empty()) entry.T_scene_reference = object.T_scene_model;
     if (object.score > 0) entry.visibility = std::min(1.0, object.score);
+    if (!points.empty()) entry.points = points[i];
     scene.objects.push_back(std::move(entry));
   }
   std::sort(scene.ignore.begin(), scene.ignore.end());

@@ -19,6 +19,8 @@ std::string sceneYaml(const Scene& scene);
 
 /// A scene of which the truth is known as detections: a score is the fraction of the object that is seen, 0 where that
 /// is unknown. Objects of which less than 5 % is seen are ignored.
-Scene groundTruthScene(const std::string& name, const std::vector<Detection>& truth);
+/// @param points how many were measured on each of them; empty: unknown @param least_points fewer: ignored as well
+Scene groundTruthScene(const std::string& name, const std::vector<Detection>& truth,
+                       const std::vector<std::size_t>& points = {}, std::size_t least_points = 0);
 
 }  // namespace sks::tools

@@ -67,6 +67,7 @@ json groundTruthJson(const SceneResult& result, std::size_t index, double thresh
   return {{"object", truth.object},
           {"position", vectorJson(truth.position)},
           {"visibility", orNull(truth.visibility)},
+          {"points", truth.points ? json(*truth.points) : json()},
           {"ignored", isIgnored(result.scene, truth.object)},
           {"detected", detected}};
 }

@@ -41,7 +41,21 @@ void MeshOptions::add(CLI::App& command) {
       ->type_name("NAME=FILE")
       ->allow_extra_args(true);
   addMeshScale(command, scale_);
-  command.add_flag("--builtin", builtin_, "all objects that the program makes itself");
+  builtin_ = command
+                 .add_option("--builtin", groups_,
+                             "objects that the program makes itself: household (default), small, flat, thin; several "
+                             "groups can be named")
+                 ->type_name("[GROUP]")
+                 ->expected(0, int(builtinGroups().size()));
+}
+
+std::vector<std::string> MeshOptions::groups() const {
+  if (builtin_->count() == 0) return {};
+  std::vector<std::string> named;
+  for (const std::string& group : groups_) {
+    if (!group.empty()) named.push_back(group);
+  }
+  return named.empty() ? std::vector<std::string>{builtinGroups().front()} : named;
 }
 
 std::vector<TrainingEntry> MeshOptions::entries() const {
@@ -60,8 +74,8 @@ std::vector<TrainingEntry> MeshOptions::entries() const {
     entry.scale = file.rfind("builtin:", 0) == 0 ? 0 : scale;
     entries.push_back(entry);
   };
-  if (builtin_) {
-    for (const std::string& name : builtinNames()) add(name, "builtin:" + name);
+  for (const std::string& group : groups()) {
+    for (const std::string& name : builtinNames(group)) add(name, "builtin:" + name);
   }
   for (const std::string& mesh : meshes_) {
     const std::size_t equals = mesh.find('=');

@@ -23,6 +23,7 @@ struct SimulateOptions {
   MeshOptions meshes;
   int scenes = 10;
   bool no_noise = false;
+  int least_points = 0;
   SceneOptions scene;
   ForceOption force;
   CLI::Option* bag_option = nullptr;
@@ -59,6 +60,9 @@ void run(const SimulateOptions& options) {
   if (options.scenes < 1 || options.scenes > 100000) {
     throw Error(ErrorCode::bad_usage, "--scenes " + std::to_string(options.scenes) + " must be in [1, 100000]");
   }
+  if (options.least_points < 0) {
+    throw Error(ErrorCode::bad_usage, "--min-points " + std::to_string(options.least_points) + " must be 0 or more");
+  }
   SceneOptions scene = options.scene;
   scene.threads = startableThreads(Settings());
   if (options.no_noise) scene.camera.noise = CameraNoise::none();
@@ -66,7 +70,7 @@ void run(const SimulateOptions& options) {
   const std::vector<TrainingEntry> entries = options.meshes.entries();
   const std::vector<SceneModel> models = loadModels(entries);
   options.force.checkFolder(options.output);
-  SimulatedSet set(options.output, entries, models);
+  SimulatedSet set(options.output, entries, models, std::size_t(options.least_points));
   const std::unique_ptr<BagRecorder> bag = options.bagRecorder();
   ProgressBar bar;
   const Progress progress = bar.callback();
@@ -110,6 +114,10 @@ void addSimulate(CLI::App& app) {
   command->add_option("--max-distance", options->scene.max_distance, "... at most [m] (default: 1.3)");
   command->add_option("--seed", options->scene.seed, "same seed, same files (default: 1)")->type_name("S");
   command->add_flag("--no-noise", options->no_noise, "a camera without errors");
+  command
+      ->add_option("--min-points", options->least_points,
+                   "objects with fewer measured points are not asked for (default: 0)")
+      ->type_name("N");
   options->bag_option =
       command->add_option("--bag", options->bag, "also as a bag for `rosbag play` (default: scenes.bag in DIR)")
           ->type_name("[FILE]")

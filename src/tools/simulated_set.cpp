@@ -56,8 +56,8 @@ std::string symmetryText(const TrainingEntry& entry, const Mesh& mesh) {
 }  // namespace
 
 SimulatedSet::SimulatedSet(const std::string& folder, const std::vector<TrainingEntry>& training,
-                           const std::vector<SceneModel>& models)
-    : folder_(folder) {
+                           const std::vector<SceneModel>& models, std::size_t least_points)
+    : folder_(folder), least_points_(least_points) {
   makeFolder((fs::path(folder) / "scenes").string());
   for (std::size_t i = 0; i < models.size(); ++i) {
     sources_.push_back(relativeSource(models[i].source, folder));
@@ -90,7 +90,9 @@ void SimulatedSet::add(const SimulatedScene& scene) {
   writeCloud(base + ".pcd", scene.view.cloud);
   writeFileAtomically(base + "_color.png", encodePng(colorImage(scene.view.cloud)));
   writeFileAtomically(base + "_depth.png", encodePng(depthImage(scene.view)));
-  Scene entry = groundTruthScene(name, truth(scene));
+  std::vector<std::size_t> points;
+  for (const ScenePlacement& placed : scene.objects) points.push_back(placed.points);
+  Scene entry = groundTruthScene(name, truth(scene), points, least_points_);
   entry.path = std::string("scenes/") + name + ".pcd";
   scenes_ += sceneYaml(entry);
 }
@@ -99,7 +101,8 @@ std::string SimulatedSet::finish() const {
   std::string path = (fs::path(folder_) / "dataset.yaml").string();
   writeFileAtomically(
       path,
-      "# Simulated scenes: exact poses; visibility is the share of an object's pixels that others do not hide.\n"
+      "# Simulated scenes: exact poses; visibility is the share of an object's pixels that others do not hide,\n"
+      "# points how many of the cloud lie on it.\n"
       "name: simulated\nunits: m\nmax_distance: 0.05\ntraining:\n" +
           training_ + "scenes:\n" + scenes_);
   return path;

@@ -14,9 +14,10 @@ namespace sks::tools {
 /// A folder that is filled with simulated scenes: scenes/scene000.pcd with its pictures, and dataset.yaml at the end.
 class SimulatedSet {
 public:
+  /// @param least_points objects on which fewer were measured are ignored
   /// @throws Error(bad_file) if the folder cannot be made
   SimulatedSet(const std::string& folder, const std::vector<TrainingEntry>& training,
-               const std::vector<SceneModel>& models);
+               const std::vector<SceneModel>& models, std::size_t least_points = 0);
 
   /// Writes cloud, colour picture (PNG) and depth picture (16-bit PNG, mm). @throws Error(bad_file)
   void add(const SimulatedScene& scene);
@@ -33,6 +34,7 @@ private:
   std::vector<std::string> objects_;        // names of the models
   std::vector<Eigen::AlignedBox3d> boxes_;  // of the models, in their frames [m]
   std::string training_, scenes_;           // parts of dataset.yaml
+  std::size_t least_points_;
   int count_ = 0;
 };
 

@@ -82,6 +82,34 @@ TEST_F(SimulateCommand, WhatIsTrainedFromMeshesIsFoundWithItsPose) {
   EXPECT_LT(result["pose"]["rotation_error_deg"]["median"].get<double>(), 5);
 }
 
+TEST_F(SimulateCommand, GroupsOfBuiltInObjectsWithTheirNumberOfPoints) {
+  const auto simulated = [&](const std::string& folder, const std::string& least) {
+    const test::CommandRun run =
+        runSks({"simulate", "--output", folder_.path(folder), "--builtin", "small", "flat", "--scenes", "2",
+                "--objects", "10", "--distractors", "0", "--min-points", least});
+    EXPECT_EQ(run.status, 0) << run.errors;
+    return loadDataSet(folder_.path(folder + "/dataset.yaml"));
+  };
+  const DataSet all = simulated("all", "0"), many = simulated("many", "400");
+  ASSERT_EQ(all.training.size(), 10u);
+  EXPECT_EQ(all.training.front().source, "builtin:dice");
+  EXPECT_EQ(all.training.back().source, "builtin:tablet");
+  std::size_t ignored = 0;
+  for (std::size_t i = 0; i < all.scenes.size(); ++i) {
+    std::vector<std::string> names;
+    for (const GroundTruth& truth : all.scenes[i].objects) {
+      ASSERT_TRUE(truth.points);
+      if (*truth.points >= 400) names.push_back(truth.object);
+    }
+    std::vector<std::string> left;
+    for (const GroundTruth& truth : many.scenes[i].objects) left.push_back(truth.object);
+    EXPECT_EQ(left, names);
+    EXPECT_EQ(left.size() + many.scenes[i].ignore.size(), 10u);
+    ignored += many.scenes[i].ignore.size();
+  }
+  EXPECT_GT(ignored, 0u);
+}
+
 TEST_F(SimulateCommand, DetectionsBecomeABopResultFile) {
   const std::vector<std::string> meshes{"--mesh", "obj_000001=builtin:mug", "--mesh", "obj_000002=builtin:duck"};
   std::vector<std::string> arguments{"simulate", "--output", folder_.path("a"), "--scenes", "1", "--objects", "2"};
@@ -132,6 +160,8 @@ TEST_F(SimulateCommand, RefusesWithTheReason) {
   EXPECT_THAT(refusal({"--mesh", "mug=none.obj"}), HasSubstr("'none.obj': it does not exist"));
   EXPECT_THAT(refusal({"--builtin", "--mesh", "mug=builtin:mug"}), HasSubstr("two meshes are called 'mug'"));
   EXPECT_THAT(refusal({"--builtin", "--scenes", "0"}), HasSubstr("--scenes 0 must be in"));
+  EXPECT_THAT(refusal({"--builtin", "--min-points", "-1"}), HasSubstr("--min-points -1 must be 0 or more"));
+  EXPECT_THAT(refusal({"--builtin", "tiny"}), HasSubstr("no group 'tiny' of built-in objects"));
 }
 
 }  // namespace
