@@ -77,7 +77,7 @@ protected:
     Scene scene;
     scene.name = "only";
     scene.path = folder_.path("scene.pcd");
-    scene.objects = {truth, GroundTruth{"ghost", {0, 0, 3}, "", {}, {}, {}}};
+    scene.objects = {truth, GroundTruth{"ghost", {0, 0, 3}, "", {}, {}, {}, {}}};
     data_set_.scenes.push_back(scene);
     data_set_.name = "set";
   }

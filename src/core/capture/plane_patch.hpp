@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/capture/clusters.hpp"
+#include "core/surface/clusters.hpp"
 
 namespace sks {
 

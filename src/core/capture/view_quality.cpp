@@ -9,7 +9,7 @@
 
 #include <sks_detector/stages/point_grid.hpp>
 
-#include "core/capture/clusters.hpp"
+#include "core/surface/clusters.hpp"
 #include "core/settings/number_format.hpp"
 
 namespace sks {

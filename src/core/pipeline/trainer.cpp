@@ -83,6 +83,17 @@ void checkSize(const Eigen::AlignedBox3f& box) {
               "data set");
 }
 
+/// Of a mesh seen along a thin part next to nothing is in sight; its other views have to do.
+bool showsTooLittle(const TrainingSample& sample, const Cloud& cloud, const Settings& settings) {
+  if (!sample.rendered || !sample.box) return false;
+  Eigen::AlignedBox3f seen;
+  for (const Eigen::Vector3f& p : cloud.points) {
+    if (p.allFinite()) seen.extend(p);
+  }
+  const float smallest = float(settings.surface.normal_radius);
+  return sample.box->sizes().maxCoeff() >= smallest && (seen.isEmpty() || seen.sizes().maxCoeff() < smallest);
+}
+
 /// Codewords under construction. Descriptors start as CSHOT under `automatic`; from the first cloud without colour, or
 /// with the colours of a mesh, on they are SHOT, and what was there is cut down to its SHOT part.
 class CodebookBuilder {
@@ -106,14 +117,16 @@ public:
   void add(const TrainingSample& sample) {
     const Settings& settings = codebook_.settings;
     const Orientation orientation = orientationOf(sample.kind);
-    const Cloud cloud = usablePoints(sample.load(), orientation, settings);
+    const Cloud loaded = sample.load();
+    if (showsTooLittle(sample, loaded, settings)) return;
+    const Cloud cloud = usablePoints(loaded, orientation, settings);
     checkSize(boxOf(sample, cloud));
     if (may_drop_color_ && (sample.rendered || !cloud.hasColor())) dropColor();
 
     const Surface surface = prepareSurface(cloud, settings.surface, orientation, threads_);
     const Keypoints keypoints = keypoints_->detect(surface, settings);
     const Descriptors descriptors = described(*descriptors_, surface, keypoints, settings);
-    if (descriptors.keypoints.empty()) {
+    if (descriptors.keypoints.empty() && !sample.rendered) {
       throw Error(ErrorCode::bad_data, "none of its " + std::to_string(keypoints.size()) +
                                            " keypoints has a descriptor; is surface.normal_radius (" +
                                            getSetting(settings, "surface.normal_radius") +

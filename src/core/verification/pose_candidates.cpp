@@ -61,7 +61,7 @@ std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::v
     for (std::size_t i = 0; i < votes.size(); ++i) {
       const Codeword& word = codebook.words[votes[i].word];
       PoseCandidate& candidate = candidates[i];
-      candidate = {object, word.view, poseOf(votes[i], word), 0};
+      candidate = {object, word.view, poseOf(votes[i], word), 0, false};
       const RoughSupport support =
           roughSupport(codebook.views[word.view], surface_weights[word.view], scene, candidate.T_scene_model);
       if (support.points < fewest_supported) continue;

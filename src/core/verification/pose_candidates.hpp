@@ -14,12 +14,14 @@
 
 namespace sks {
 
-/// A pose by one correspondence: the local frames give the rotation, the keypoints the translation.
+/// A pose by one correspondence: the local frames give the rotation, the keypoints the translation. Or one by which an
+/// object would stand where something does.
 struct PoseCandidate {
   std::uint32_t object = 0;
   std::uint32_t view = 0;
   Eigen::Isometry3d T_scene_model = Eigen::Isometry3d::Identity();
   double pre_score = 0;  ///< from the votes around it and a rough comparison with the scene
+  bool stands = false;   ///< not from a vote, but from what stands alone on a plane
 };
 
 /// The most promising poses of each object, at most `verification.candidates`, best first within each object.

@@ -85,7 +85,8 @@ SceneView::SceneView(const Surface& scene, std::vector<LargePlane> large_planes,
     : surface(scene),
       range_image(scene, float(settings.surface.normal_radius), threads),
       planes(std::move(large_planes)),
-      color_tolerance(scene.hasColor() ? float(settings.verification.color_tolerance) : 0) {}
+      color_tolerance(scene.hasColor() ? float(settings.verification.color_tolerance) : 0),
+      rises(scene.size(), 0) {}
 
 SurfaceWeights::SurfaceWeights(const TrainingView& view) : shape(view.surface_points.size(), 0.0f) {
   const PointGrid grid(view.surface_points, weight_radius);
@@ -131,9 +132,7 @@ PoseEvidence examinePose(const TrainingView& view, const SurfaceWeights& surface
       if (seen.sight == Sight::at || seen.sight == Sight::in_front) evidence.weighted_visible += weighted;
       return;
     }
-    const Eigen::Vector3f point = scene.surface.point(correspondence.point),
-                          normal = scene.surface.normal(correspondence.point);
-    if (planeExtentAt(scene.planes, point, normal) > object_size) return;
+    if (scene.onLargerPlane(correspondence.point, object_size)) return;
     evidence.supported += area * correspondence.agreement;
     evidence.weighted_visible += weighted;
     evidence.weighted_supported += weighted * correspondence.agreement;

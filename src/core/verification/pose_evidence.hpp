@@ -34,6 +34,13 @@ struct SceneView {
   /// By which light and white balance have moved the scene's colours from those of the models; as in Surface.
   Eigen::Vector3f color_shift = Eigen::Vector3f::Zero();
 
+  std::vector<char> rises;  ///< of findStandingThings()
+
+  /// Whether a scene point lies on a plane that is larger than an object: it is no part of it.
+  bool onLargerPlane(std::uint32_t point, float object_size) const {
+    return !rises[point] && planeExtentAt(planes, surface.point(point), surface.normal(point)) > object_size;
+  }
+
   /// Of a scene point, as under the light of the models.
   Eigen::Vector3f colorAt(std::uint32_t point) const { return surface.colorAt(point) - color_shift; }
 };

@@ -15,7 +15,8 @@ constexpr double area_unit = 1e-4;      // [m^2] areas enter the evidence in cm^
 constexpr double prior_area = 0.25e-4;  // [m^2] keeps the fraction of a very small area low
 constexpr double color_gain = 1.8;      // of evidence: what right poses lose by colours that agree to about 0.8
 constexpr std::size_t first_points = 250, last_points = 1500;  // examined to choose between poses, and of the chosen
-constexpr double well_sampled = 4;                             // spacings of points within the radius of a normal
+constexpr double standing_density = 2;  // of votes: what it is worth that something stands alone there
+constexpr double well_sampled = 4;      // spacings of points within the radius of a normal
 
 /// Of ICP with nearest pairs, for poses that are a fraction of a millimetre off.
 RefinementSettings lastRounds(RefinementSettings settings) {
@@ -38,6 +39,26 @@ VerifiedModels::VerifiedModels(std::shared_ptr<const Codebook> models)
     : codebook(std::move(models)), surfaces(modelSurfaces(*codebook)) {
   weights.reserve(codebook->views.size());
   for (const TrainingView& view : codebook->views) weights.emplace_back(view);
+  for (std::uint32_t v = 0; v < surfaces.size(); ++v) {
+    const std::vector<std::uint32_t>& together = surfaces[v]->views;
+    const bool has_them = together.size() > 1 && together.front() == v;
+    resting.push_back(has_them ? restingPoses(*surfaces[v]) : std::vector<RestingPose>());
+  }
+}
+
+bool VerifiedModels::anyRests() const {
+  return std::any_of(resting.begin(), resting.end(), [](const auto& poses) { return !poses.empty(); });
+}
+
+std::uint32_t nearestView(const Codebook& codebook, const ModelSurface& surface, const Eigen::Vector3f& sensor_origin,
+                          const Eigen::Isometry3d& T_scene_model) {
+  const Eigen::Vector3f sensor = (T_scene_model.inverse() * sensor_origin.cast<double>()).cast<float>();
+  const auto cosine = [&](std::uint32_t v) {
+    const TrainingView& view = codebook.views[v];
+    return (view.sensor_origin - view.center()).stableNormalized().dot((sensor - view.center()).stableNormalized());
+  };
+  return *std::max_element(surface.views.begin(), surface.views.end(),
+                           [&](std::uint32_t a, std::uint32_t b) { return cosine(a) < cosine(b); });
 }
 
 PoseExaminer::PoseExaminer(const VerifiedModels& models, const SceneView& scene,
@@ -92,7 +113,7 @@ Hypothesis PoseExaminer::bestTurned(const Hypothesis& hypothesis) const {
   for (const auto& T : turnedPoses(hypothesis.T_scene_model, view.center().cast<double>(), hypothesis.box_size)) {
     Hypothesis turned = hypothesis;
     turned.T_scene_model = T;
-    turned.view = nearestView(turned);
+    turned.view = nearestView(codebook_, *models_.surfaces[turned.view], scene_.surface.sensor_origin, T);
     turned = refined(std::move(turned));
     const double evidence = evidenceAlongRays(turned);
     if (evidence <= most) continue;
@@ -108,12 +129,15 @@ double PoseExaminer::evidenceAt(Hypothesis& hypothesis, PoseEvidence& pose, std:
   hypothesis.T_scene_box = hypothesis.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
   hypothesis.box_size = view.extent().cast<double>();
   const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();
-  hypothesis.density = densities_[hypothesis.object]->at(center);
-  hypothesis.votes = densities_[hypothesis.object]->count(center);
+  if (const auto& density = densities_[hypothesis.object]) {
+    hypothesis.density = density->at(center);
+    hypothesis.votes = density->count(center);
+  }
   pose = examinePose(view, models_.weights[hypothesis.view], scene_, settings_, hypothesis.T_scene_model, most_points,
                      search);
   const double gain = scene_.comparesColor(view) ? color_gain : 1;
-  return gain * sampling(center) * evidenceOf(pose, hypothesis.density);
+  return gain * sampling(center) *
+         evidenceOf(pose, hypothesis.stands ? std::max(standing_density, hypothesis.density) : hypothesis.density);
 }
 
 SightLines PoseExaminer::sightLines(const Hypothesis& hypothesis) const {
@@ -127,19 +151,6 @@ double PoseExaminer::sampling(const Eigen::Vector3f& position) const {
   const double range = double((position - scene_.surface.sensor_origin).norm());
   const double spacing = range * double(scene_.range_image.spacing());
   return spacing > 0 ? std::min(1.0, settings_.surface.normal_radius / (well_sampled * spacing)) : 1;
-}
-
-/// Of the views in the hypothesis' frame the one that was taken most nearly from where the sensor is now.
-std::uint32_t PoseExaminer::nearestView(const Hypothesis& hypothesis) const {
-  const std::vector<std::uint32_t>& views = models_.surfaces[hypothesis.view]->views;
-  const Eigen::Vector3f sensor =
-      (hypothesis.T_scene_model.inverse() * scene_.surface.sensor_origin.cast<double>()).cast<float>();
-  const auto cosine = [&](std::uint32_t v) {
-    const TrainingView& view = codebook_.views[v];
-    return (view.sensor_origin - view.center()).stableNormalized().dot((sensor - view.center()).stableNormalized());
-  };
-  return *std::max_element(views.begin(), views.end(),
-                           [&](std::uint32_t a, std::uint32_t b) { return cosine(a) < cosine(b); });
 }
 
 }  // namespace sks

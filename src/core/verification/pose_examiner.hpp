@@ -12,6 +12,7 @@
 
 #include "core/verification/model_surface.hpp"
 #include "core/verification/pose_evidence.hpp"
+#include "core/verification/resting_poses.hpp"
 #include "core/verification/sight_lines.hpp"
 #include "core/voting/vote_density.hpp"
 
@@ -21,10 +22,18 @@ namespace sks {
 struct VerifiedModels {
   explicit VerifiedModels(std::shared_ptr<const Codebook> codebook);
 
+  /// Whether there are resting poses of any object.
+  bool anyRests() const;
+
   std::shared_ptr<const Codebook> codebook;
   std::vector<std::shared_ptr<const ModelSurface>> surfaces;  ///< in the frame of each view
   std::vector<SurfaceWeights> weights;                        ///< of the points of each view's stored surface
+  std::vector<std::vector<RestingPose>> resting;  ///< of the surface of each view; of shared ones the first has them
 };
+
+/// Of the views that a surface is made of the one that was taken most nearly from where the sensor is now.
+std::uint32_t nearestView(const Codebook& codebook, const ModelSurface& surface, const Eigen::Vector3f& sensor_origin,
+                          const Eigen::Isometry3d& T_scene_model);
 
 /// A hypothesis with its evidence, and the part of the scene that it explains.
 struct Examined {
@@ -57,7 +66,6 @@ private:
                     CorrespondenceSearch search) const;
   SightLines sightLines(const Hypothesis& hypothesis) const;
   double sampling(const Eigen::Vector3f& position) const;
-  std::uint32_t nearestView(const Hypothesis& hypothesis) const;
 
   const VerifiedModels& models_;
   const Codebook& codebook_;

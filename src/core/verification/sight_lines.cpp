@@ -147,7 +147,7 @@ SightLines lookAlongRays(const ModelSurface& model, const SceneView& scene, cons
       if (seen.sight == Sight::at || seen.sight == Sight::in_front) lines.missed += 1;
       continue;
     }
-    if (planeExtentAt(scene.planes, seen.cell->position(), seen.cell->normal()) > object_size) continue;
+    if (scene.onLargerPlane(scene.range_image.pointOf(seen), object_size)) continue;
     lines.confirmed += 1;
     if (colored) {
       const Eigen::Vector3f &color = model.colors[p.index],

@@ -8,6 +8,7 @@
 #include "core/verification/pose_candidates.hpp"
 #include "core/verification/projective_refinement.hpp"
 #include "core/verification/score.hpp"
+#include "core/verification/standing_candidates.hpp"
 
 namespace sks {
 namespace {
@@ -33,6 +34,13 @@ std::vector<std::uint32_t> inliersOf(const Codebook& codebook, const std::vector
     if (here && fits) inliers.push_back(std::uint32_t(i));
   }
   return inliers;
+}
+
+/// Of the boxes of all objects [m].
+float largestDiagonal(const Codebook& codebook) {
+  float largest = 0;
+  for (const TrainingView& view : codebook.views) largest = std::max(largest, view.extent().norm());
+  return largest;
 }
 
 bool better(const Examined& a, const Examined& b) {
@@ -101,8 +109,13 @@ double SurfaceVerifier::score(const Hypothesis& hypothesis, const Settings& sett
 std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector<Vote>>& spaces, SceneView scene,
                                                    const Settings& settings, int threads) const {
   const Codebook& codebook = *models_.codebook;
-  const std::vector<PoseCandidate> candidates =
-      poseCandidates(codebook, models_.weights, spaces, scene, settings, threads);
+  std::vector<PoseCandidate> candidates = poseCandidates(codebook, models_.weights, spaces, scene, settings, threads);
+  if (models_.anyRests()) {
+    StandingThings standing = findStandingThings(scene.surface, scene.planes, largestDiagonal(codebook));
+    scene.rises = std::move(standing.rises);
+    const std::vector<PoseCandidate> more = standingCandidates(models_, standing, scene, threads);
+    candidates.insert(candidates.end(), more.begin(), more.end());
+  }
   const PoseExaminer examiner(models_, scene, spaces, settings);
   const double half = settings.verification.half_evidence;
 
@@ -113,6 +126,7 @@ std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector
     Hypothesis hypothesis;
     hypothesis.object = candidate.object;
     hypothesis.view = candidate.view;
+    hypothesis.stands = candidate.stands;
     hypothesis.T_scene_model =
         refineAlongRays(codebook.views[candidate.view], scene, settings.refinement, candidate.T_scene_model);
     examined[i] = examiner.examineAlongRays(std::move(hypothesis));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/capture/clusters.hpp"
+#include "core/surface/clusters.hpp"
 
 #include <algorithm>
 

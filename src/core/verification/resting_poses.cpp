@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/verification/resting_poses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace sks {
+namespace {
+
+constexpr int falls = 400;  // from rotations spread over the sphere
+constexpr int steps_of_fall = 80;
+constexpr float first_step = 0.1f, last_step = 0.005f;  // [rad]
+constexpr int fewest_falls = 2;                         // into a pose: else it is a dent of the samples
+constexpr float together = 0.94f;                       // cosine of 20 degrees: what is nearer is one pose
+constexpr std::size_t most_poses = 12;
+constexpr int most_alike = 6;              // of the same height, as a can has when it rolls
+constexpr float alike = 0.03f;             // of the height
+constexpr float contact = 0.005f;          // [m] points so near to the plane touch it
+constexpr float contact_agreement = 0.9f;  // cosine between their normals and the plane's
+
+/// Directions that cover the sphere evenly: a spiral.
+std::vector<Eigen::Vector3f> evenDirections(int count) {
+  std::vector<Eigen::Vector3f> all;
+  const double golden = EIGEN_PI * (3 - std::sqrt(5.0));
+  for (int i = 0; i < count; ++i) {
+    const double z = 1 - 2 * (i + 0.5) / count, radius = std::sqrt(1 - z * z);
+    all.push_back(Eigen::Vector3d(radius * std::cos(golden * i), radius * std::sin(golden * i), z).cast<float>());
+  }
+  return all;
+}
+
+const Eigen::Vector3f& farthest(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& direction) {
+  return *std::max_element(points.begin(), points.end(), [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
+    return direction.dot(a) < direction.dot(b);
+  });
+}
+
+/// The points that can touch a plane, or nearly all of them.
+std::vector<Eigen::Vector3f> outermost(const std::vector<Eigen::Vector3f>& points) {
+  std::vector<Eigen::Vector3f> all;
+  for (const Eigen::Vector3f& direction : evenDirections(2 * falls)) {
+    const Eigen::Vector3f& p = farthest(points, direction);
+    if (std::find(all.begin(), all.end(), p) == all.end()) all.push_back(p);
+  }
+  return all;
+}
+
+/// Tips over the point that touches the plane, towards the centre, in ever smaller steps.
+Eigen::Vector3f fallen(Eigen::Vector3f down, const std::vector<Eigen::Vector3f>& outer, const Eigen::Vector3f& center) {
+  const float shrink = std::pow(last_step / first_step, 1.0f / float(steps_of_fall));
+  float step = first_step;
+  for (int i = 0; i < steps_of_fall; ++i, step *= shrink) {
+    const Eigen::Vector3f lever = farthest(outer, down) - center, across = lever - lever.dot(down) * down;
+    if (across.norm() > 0) down = (down - step * across.normalized()).normalized();
+  }
+  return down;
+}
+
+/// The direction in which the touching parts of the surface face.
+Eigen::Vector3f settled(const ModelSurface& model, const Eigen::Vector3f& down) {
+  const float floor = down.dot(farthest(model.points, down));
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (std::size_t i = 0; i < model.points.size(); ++i) {
+    const bool touches = down.dot(model.points[i]) > floor - contact && down.dot(model.normals[i]) > contact_agreement;
+    if (touches) sum += model.normals[i];
+  }
+  return sum.norm() > 0 ? Eigen::Vector3f(sum.normalized()) : down;
+}
+
+/// Whether the centre lies above the convex hull of what touches the plane: seen from below it, touching points lie in
+/// all directions.
+bool isSupported(const ModelSurface& model, const Eigen::Vector3f& down, const Eigen::Vector3f& center) {
+  const float floor = down.dot(farthest(model.points, down));
+  const Eigen::Vector3f u = down.unitOrthogonal(), v = down.cross(u);
+  std::vector<float> angles;
+  for (const Eigen::Vector3f& p : model.points) {
+    if (down.dot(p) > floor - contact) angles.push_back(std::atan2(v.dot(p - center), u.dot(p - center)));
+  }
+  std::sort(angles.begin(), angles.end());
+  float widest_gap = angles.front() + float(2 * EIGEN_PI) - angles.back();
+  for (std::size_t i = 1; i < angles.size(); ++i) widest_gap = std::max(widest_gap, angles[i] - angles[i - 1]);
+  return widest_gap < float(EIGEN_PI);
+}
+
+}  // namespace
+
+std::vector<RestingPose> restingPoses(const ModelSurface& model) {
+  if (model.points.empty()) return {};
+  Eigen::Vector3f center = Eigen::Vector3f::Zero();
+  for (const Eigen::Vector3f& p : model.points) center += p / float(model.points.size());
+  const std::vector<Eigen::Vector3f> outer = outermost(model.points);
+  std::vector<std::pair<int, Eigen::Vector3f>> ends;  // how many falls end there, and the first of them
+  for (const Eigen::Vector3f& direction : evenDirections(falls)) {
+    const Eigen::Vector3f down = settled(model, fallen(direction, outer, center));
+    const auto known =
+        std::find_if(ends.begin(), ends.end(), [&](const auto& end) { return end.second.dot(down) > together; });
+    if (known == ends.end()) {
+      ends.push_back({1, down});
+    } else {
+      ++known->first;
+    }
+  }
+  std::stable_sort(ends.begin(), ends.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<RestingPose> poses;
+  for (const auto& [count, down] : ends) {
+    if (poses.size() >= most_poses || count < fewest_falls) break;
+    if (!isSupported(model, down, center)) continue;  // still on its way, along the edge of a box
+    const float floor = down.dot(farthest(model.points, down)), top = down.dot(farthest(model.points, -down));
+    const float height = floor - top;
+    const auto isAlike = [&](const RestingPose& pose) { return std::abs(pose.height - height) < alike * height; };
+    if (std::count_if(poses.begin(), poses.end(), isAlike) < most_alike) poses.push_back({down, height, floor});
+  }
+  return poses;
+}
+
+}  // namespace sks

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/verification/standing_things.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/surface/clusters.hpp"
+#include "core/surface/plane_ransac.hpp"
+
+namespace sks {
+namespace {
+
+constexpr float patch_edge = 0.01f;        // [m] heights are averaged over a patch, the scale of the normals
+constexpr int fewest_of_patch = 4;         // points
+constexpr float near_plane = 0.015f;       // [m] what of a patch may be the plane, its noise, or a flat thing
+constexpr float lowest_rise = 0.003f;      // [m] of a patch above its plane, and
+constexpr float sure_deviations = 3.0f;    // ... in standard deviations of the patches of a plane
+constexpr float gap = 0.015f;              // [m] things nearer to each other than this are one
+constexpr float noise_at_edges = 0.01f;    // [m] measured larger than it is
+constexpr float reach = 0.03f;             // [m] what begins higher above the plane does not stand on it
+constexpr std::size_t fewest_points = 12;  // of a thing, thinned to half of the gap
+constexpr std::size_t most_things = 40;
+
+/// A plane with axes of its own.
+struct Frame {
+  Frame(const Eigen::Vector3f& normal, float offset) : up(normal), floor(offset) {
+    u = normal.unitOrthogonal();
+    v = normal.cross(u);
+  }
+
+  float heightOf(const Eigen::Vector3f& p) const { return up.dot(p) - floor; }
+  std::pair<int, int> patchOf(const Eigen::Vector3f& p) const {
+    return {int(std::floor(u.dot(p) / patch_edge)), int(std::floor(v.dot(p) / patch_edge))};
+  }
+
+  Eigen::Vector3f up, u, v;
+  float floor;
+};
+
+/// The large plane, fitted to all of its points.
+Frame fittedFrame(const Surface& scene, const LargePlane& plane) {
+  std::vector<Eigen::Vector3f> members;
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    const Eigen::Vector3f p = scene.point(i);
+    if (plane.contains(p, scene.normal(i))) members.push_back(p);
+  }
+  const PlaneFit fit = leastSquaresPlane(members);
+  Eigen::Vector3f normal = fit.normal.cast<float>();
+  if (normal.dot(plane.normal) < 0) normal = -normal;
+  return {normal, normal.dot(fit.mean.cast<float>())};
+}
+
+struct Patch {
+  std::pair<int, int> cell;
+  float sum = 0;
+  int count = 0;
+
+  float height() const { return sum / float(count); }
+};
+
+/// Patches of points at a plane, by cell.
+std::vector<Patch> patchesAt(const Surface& scene, const Frame& frame) {
+  std::vector<std::pair<std::pair<int, int>, float>> heights;
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    const float height = frame.heightOf(scene.point(i));
+    if (std::abs(height) < near_plane) heights.push_back({frame.patchOf(scene.point(i)), height});
+  }
+  std::sort(heights.begin(), heights.end());
+  std::vector<Patch> patches;
+  for (const auto& [cell, height] : heights) {
+    if (patches.empty() || patches.back().cell != cell) patches.push_back({cell, 0, 0});
+    patches.back().sum += height;
+    ++patches.back().count;
+  }
+  patches.erase(
+      std::remove_if(patches.begin(), patches.end(), [](const Patch& p) { return p.count < fewest_of_patch; }),
+      patches.end());
+  return patches;
+}
+
+float medianOfHeights(std::vector<float> values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Heights from which patches rise above the plane: of its own unevenness, and where it lies in the median.
+std::pair<float, float> baseAndRise(const std::vector<Patch>& patches) {
+  std::vector<float> heights;
+  for (const Patch& patch : patches) heights.push_back(patch.height());
+  const float base = medianOfHeights(heights);
+  for (float& height : heights) height = std::abs(height - base);
+  return {base, std::max(lowest_rise, sure_deviations * 1.4826f * medianOfHeights(heights))};
+}
+
+/// Scene points that rise above the plane: those of patches that do, and all that are higher.
+std::vector<std::uint32_t> risingPoints(const Surface& scene, const Frame& frame, float largest) {
+  const std::vector<Patch> patches = patchesAt(scene, frame);
+  if (patches.empty()) return {};
+  const auto [base, rise] = baseAndRise(patches);
+  std::vector<std::pair<int, int>> raised;
+  for (const Patch& patch : patches) {
+    if (patch.height() - base > rise) raised.push_back(patch.cell);
+  }
+  std::vector<std::uint32_t> rising;
+  for (std::uint32_t i = 0; i < scene.size(); ++i) {
+    const float height = frame.heightOf(scene.point(i)) - base;
+    if (height > largest + noise_at_edges || height < 0.5f * rise) continue;
+    const bool above =
+        height > near_plane || std::binary_search(raised.begin(), raised.end(), frame.patchOf(scene.point(i)));
+    if (above) rising.push_back(i);
+  }
+  return rising;
+}
+
+/// @param points of a connected group, at least one
+StandingThing describedThing(const std::vector<Eigen::Vector3f>& points, const Frame& frame) {
+  StandingThing thing;
+  thing.up = frame.up, thing.floor = frame.floor;
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (const Eigen::Vector3f& p : points) {
+    sum += p;
+    thing.height = std::max(thing.height, frame.heightOf(p));
+  }
+  thing.centroid = sum / float(points.size());
+  Eigen::Matrix2f spread = Eigen::Matrix2f::Zero();
+  for (const Eigen::Vector3f& p : points) {
+    const Eigen::Vector2f q(frame.u.dot(p - thing.centroid), frame.v.dot(p - thing.centroid));
+    spread += q * q.transpose();
+  }
+  const float angle = 0.5f * std::atan2(2 * spread(0, 1), spread(0, 0) - spread(1, 1));
+  thing.long_axis = std::cos(angle) * frame.u + std::sin(angle) * frame.v;
+  const Eigen::Vector3f across = thing.up.cross(thing.long_axis);
+  const auto extentAlong = [&](const Eigen::Vector3f& axis) {
+    float least = axis.dot(points[0]), most = least;
+    for (const Eigen::Vector3f& p : points) least = std::min(least, axis.dot(p)), most = std::max(most, axis.dot(p));
+    return most - least;
+  };
+  thing.length = extentAlong(thing.long_axis), thing.width = extentAlong(across);
+  return thing;
+}
+
+}  // namespace
+
+StandingThings findStandingThings(const Surface& scene, const std::vector<LargePlane>& planes, float largest) {
+  StandingThings standing;
+  standing.rises.assign(scene.size(), 0);
+  for (const LargePlane& plane : planes) {
+    if (plane.extent < largest) continue;  // a side of a thing
+    const Frame frame = fittedFrame(scene, plane);
+    std::vector<Eigen::Vector3f> points;
+    for (const std::uint32_t i : risingPoints(scene, frame, largest)) {
+      if (frame.heightOf(scene.point(i)) < near_plane) standing.rises[i] = 1;
+      points.push_back(scene.point(i));
+    }
+    if (points.empty()) continue;
+    const PointGrid grid(points, gap);
+    std::vector<Eigen::Vector3f> thinned;
+    for (const std::uint32_t i : thinnedIndices(grid, 0.5 * double(gap))) thinned.push_back(grid.point(i));
+    for (const Indices& cluster : findClusters(thinned, gap)) {
+      if (cluster.size() < fewest_points || standing.things.size() >= most_things) break;
+      const std::vector<Eigen::Vector3f> members = at(thinned, cluster);
+      const bool stands = std::any_of(members.begin(), members.end(),
+                                      [&](const Eigen::Vector3f& p) { return frame.heightOf(p) < reach; });
+      const StandingThing thing = describedThing(members, frame);
+      if (stands && thing.length <= largest + noise_at_edges) standing.things.push_back(thing);
+    }
+  }
+  return standing;
+}
+
+}  // namespace sks

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <sks_detector/stages/large_planes.hpp>
+#include <sks_detector/stages/surface.hpp>
+
+namespace sks {
+
+/// Something that stands or lies on a large plane with nothing near it.
+struct StandingThing {
+  Eigen::Vector3f up = Eigen::Vector3f::UnitZ();         ///< normal of the plane that it stands on, towards the sensor
+  float floor = 0;                                       ///< up . p for points p of that plane [m]
+  float height = 0;                                      ///< of its top above the plane [m]
+  Eigen::Vector3f centroid = Eigen::Vector3f::Zero();    ///< of what is seen of it [m]
+  Eigen::Vector3f long_axis = Eigen::Vector3f::UnitX();  ///< unit, within the plane: along which it is longest
+  float length = 0, width = 0;                           ///< of what is seen, within the plane [m]
+};
+
+struct StandingThings {
+  std::vector<StandingThing> things;  ///< largest first
+  /// For each scene point whether it rises above the plane below it, also by less than a plane's tolerance: no part of
+  /// that plane.
+  std::vector<char> rises;
+};
+
+/// What stands on the large planes of a scene: connected groups of points that rise from a plane, down to a few
+/// millimetres, which many points that lie side by side tell from the noise. Deterministic.
+/// @param largest what is larger than this stands there as furniture [m]
+StandingThings findStandingThings(const Surface& scene, const std::vector<LargePlane>& planes, float largest);
+
+}  // namespace sks
