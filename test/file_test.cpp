@@ -74,10 +74,11 @@ TEST(File, NewOnesReplaceNothing) {
   EXPECT_TRUE(sks::writeNewFileAtomically(folder.path("a.txt"), "first"));
   EXPECT_FALSE(sks::writeNewFileAtomically(folder.path("a.txt"), "second"));
   EXPECT_EQ(sks::readTextFile(folder.path("a.txt")), "first");
-  fs::create_symlink("b.txt", folder.path("link.txt"));
-  EXPECT_TRUE(sks::writeNewFileAtomically(folder.path("link.txt"), "by the link"));
-  EXPECT_FALSE(sks::writeNewFileAtomically(folder.path("link.txt"), "again"));
-  EXPECT_EQ(sks::readTextFile(folder.path("b.txt")), "by the link");
+  fs::create_symlink("a.txt", folder.path("link.txt"));
+  fs::create_symlink("none.txt", folder.path("dangling.txt"));
+  EXPECT_FALSE(sks::writeNewFileAtomically(folder.path("link.txt"), "by the link"));
+  EXPECT_FALSE(sks::writeNewFileAtomically(folder.path("dangling.txt"), "by the link"));
+  EXPECT_EQ(sks::readTextFile(folder.path("a.txt")), "first");
   EXPECT_EQ(folder.fileCount(), 3u);
   EXPECT_TRUE(sks::writeNewFileAtomically("/dev/null", "x"));
 }

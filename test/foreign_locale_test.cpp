@@ -4,7 +4,9 @@
 
 #include "foreign_locale.hpp"
 
+#include <algorithm>
 #include <regex>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -39,8 +41,9 @@ std::vector<std::string> filesOf(const std::string& set) {
   EXPECT_FALSE(std::regex_search(text, std::regex("[0-9],[0-9]"))) << text;
   const nlohmann::json json = nlohmann::json::parse(text);
   EXPECT_EQ(json["true_positives"], 1);
-  return {readTextFile(data_set), readTextFile(folder.path(set + "/scenes/scene000.pcd")), readTextFile(codebook),
-          json["per_scene"].dump(), json["pose"].dump(), json["f1"].dump()};
+  return {readTextFile(data_set), readTextFile(folder.path(set + "/scenes/scene000.pcd")),
+          readTextFile(codebook), json["per_scene"].dump(),
+          json["pose"].dump(),    json["f1"].dump()};
 }
 
 }  // namespace

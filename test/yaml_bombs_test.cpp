@@ -75,7 +75,7 @@ std::vector<std::string> bombs() {
 
 /// Scenes that share one list of objects.
 std::string sharedObjects(int scenes, int objects) {
-  std::string text = "name: x\nunits: m\nscenes:\n  - {name: s, cloud: a.pcd, objects: &o [" +
+  std::string text = "name: x\nunits: m\nmax_distance: 0.05\nscenes:\n  - {name: s, cloud: a.pcd, objects: &o [" +
                      times(objects, "{object: a, position: [0, 0, 1]},") + "]}\n";
   for (int i = 0; i < scenes; ++i) text += "  - {name: s" + std::to_string(i) + ", cloud: a.pcd, objects: *o}\n";
   return text;

@@ -75,7 +75,8 @@ void ServiceContext::writeCodebook(const std::string& path, bool overwrite, cons
   } else if (!sks::writeNewCodebook(path, codebook)) {
     checkOverwriting(path, overwrite, &codebook);
     if (!fs::exists(path)) {
-      throw sks::Error(sks::ErrorCode::bad_file, "'" + path + "' was written and removed by another program: try again");
+      throw sks::Error(sks::ErrorCode::bad_file,
+                       "'" + path + "' was written and removed by another program: try again");
     }
   }
 }

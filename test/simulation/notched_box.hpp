@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A box of 140 x 90 x 60 mm that lacks two of its corners, so that no turn maps it onto itself, in squares of 10 mm with
-// the colours of box_files.hpp by side; and the files that it can come in.
+// A box of 140 x 90 x 60 mm that lacks two of its corners, so that no turn maps it onto itself, in squares of 10 mm
+// with the colours of box_files.hpp by side; and the files that it can come in.
 #pragma once
 
 #include <array>

@@ -116,7 +116,8 @@ void run(const BagExtractOptions& options) {
   if (set.count() == 0) {
     throw Error(ErrorCode::bad_data, "'" + options.bag + "': no cloud of " + topic + " can be taken in that time");
   }
-  print(std::to_string(set.count()) + " clouds: " + set.finish(fs::path(options.bag).stem().string(), options.force) + "\n");
+  print(std::to_string(set.count()) + " clouds: " + set.finish(fs::path(options.bag).stem().string(), options.force) +
+        "\n");
 }
 
 }  // namespace
