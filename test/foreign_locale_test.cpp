@@ -42,7 +42,7 @@ std::vector<std::string> filesOf(const std::string& set) {
   const nlohmann::json json = nlohmann::json::parse(text);
   EXPECT_EQ(json["true_positives"], 1);
   return {readTextFile(data_set), readTextFile(folder.path(set + "/scenes/scene000.pcd")),
-          readTextFile(codebook), json["per_scene"].dump(),
+          readTextFile(codebook), json["per_scene"][0]["detections"].dump(),
           json["pose"].dump(),    json["f1"].dump()};
 }
 

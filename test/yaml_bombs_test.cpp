@@ -84,7 +84,9 @@ std::string sharedObjects(int scenes, int objects) {
 }  // namespace
 
 TEST(YamlBombs, AliasesThatMultiplyAreRefused) {
-  const DataSet few = parseDataSet(sharedObjects(100, 20), "few.yaml");
+  const test::TemporaryFolder folder;
+  test::writeFile(folder.path("a.pcd"), "");
+  const DataSet few = parseDataSet(sharedObjects(100, 20), folder.path("few.yaml"));
   ASSERT_EQ(few.scenes.size(), 101u);
   EXPECT_EQ(few.scenes.back().objects.size(), 20u);
   const auto start = std::chrono::steady_clock::now();
