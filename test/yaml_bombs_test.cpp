@@ -92,7 +92,7 @@ TEST(YamlBombs, AliasesThatMultiplyAreRefused) {
   const auto start = std::chrono::steady_clock::now();
   const std::string refusal =
       test::errorOf(ErrorCode::bad_file, [] { parseDataSet(sharedObjects(5000, 5000), "bomb.yaml"); });
-  EXPECT_EQ(refusal.rfind("bomb.yaml:2", 0), 0u) << refusal;  // from line 20 on
+  EXPECT_EQ(refusal.rfind("bomb.yaml:30: ", 0), 0u) << refusal;  // the 25th alias
   EXPECT_NE(refusal.find("the aliases (*name) up to here stand for more than 1000000 values"), std::string::npos);
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
 }
