@@ -48,7 +48,7 @@ std::vector<std::string> filesOf(const std::string& set) {
 
 }  // namespace
 
-TEST(ForeignLocale, CommandsWriteTheSameFiles) {
+TEST(ForeignLocaleCommands, WriteTheSameFiles) {
   const std::vector<std::string> usual = filesOf("set");
   std::vector<std::string> foreign;
   {
