@@ -2,8 +2,10 @@
 #include <sks_detector/codebook_file.hpp>
 
 #include <cstring>
+#include <future>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include <unistd.h>
 
@@ -156,6 +158,24 @@ TEST_F(CodebookFile, SameCodebookSameBytes) {
   const std::string first = content();
   EXPECT_EQ(content(), first);
   EXPECT_EQ(folder_.fileCount(), 1u);
+}
+
+TEST_F(CodebookFile, OfTwoThreadsThatWriteANewOneAloneDoes) {
+  for (int round = 0; round < 30; ++round) {
+    std::vector<std::future<bool>> writers;
+    for (const char* name : {"one", "other"}) {
+      writers.push_back(std::async(std::launch::async, [&, name] {
+        sks::Codebook codebook = makeCodebook();
+        codebook.name = name;
+        return sks::writeNewCodebook(path_, codebook);
+      }));
+    }
+    const bool first = writers[0].get(), second = writers[1].get();
+    EXPECT_NE(first, second);
+    EXPECT_EQ(sks::readCodebook(path_)->name, first ? "one" : "other");
+    EXPECT_EQ(folder_.fileCount(), 1u);
+    ::unlink(path_.c_str());
+  }
 }
 
 TEST_F(CodebookFile, ChecksumIsKnownBeforeWriting) {

@@ -2,8 +2,11 @@
 #include "io/file.hpp"
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <gtest/gtest.h>
@@ -64,6 +67,55 @@ TEST(File, NamesMayBeAsLongAsTheFileSystemTakes) {
   EXPECT_EQ(folder.fileCount(), 3u);
   const std::string message = fileError([&] { sks::writeFileAtomically(folder.path(std::string(256, 'z')), "z"); });
   EXPECT_NE(message.find("choose a shorter name"), std::string::npos) << message;
+}
+
+TEST(File, NewOnesReplaceNothing) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(sks::writeNewFileAtomically(folder.path("a.txt"), "first"));
+  EXPECT_FALSE(sks::writeNewFileAtomically(folder.path("a.txt"), "second"));
+  EXPECT_EQ(sks::readTextFile(folder.path("a.txt")), "first");
+  fs::create_symlink("a.txt", folder.path("link.txt"));
+  fs::create_symlink("none.txt", folder.path("dangling.txt"));
+  EXPECT_FALSE(sks::writeNewFileAtomically(folder.path("link.txt"), "by the link"));
+  EXPECT_FALSE(sks::writeNewFileAtomically(folder.path("dangling.txt"), "by the link"));
+  EXPECT_EQ(sks::readTextFile(folder.path("a.txt")), "first");
+  EXPECT_EQ(folder.fileCount(), 3u);
+  EXPECT_TRUE(sks::writeNewFileAtomically("/dev/null", "x"));
+}
+
+TEST(File, OfSeveralProcessesThatWriteANewOneAloneDoes) {
+  const TemporaryFolder folder;
+  constexpr int processes = 4, rounds = 50;
+  int start[2];
+  ASSERT_EQ(::pipe(start), 0);
+  std::vector<pid_t> children;
+  for (int i = 0; i < processes; ++i) {
+    children.push_back(::fork());
+    if (children.back() != 0) continue;
+    ::close(start[1]);
+    char byte = 0;
+    if (::read(start[0], &byte, 1) != 0) ::_exit(255);  // the end of the pipe: all begin at once
+    int won = 0;
+    for (int round = 0; round < rounds; ++round) {
+      const std::string path = folder.path(std::to_string(round));
+      const bool written = sks::writeNewFileAtomically(path, std::to_string(i));
+      if (written != (sks::readTextFile(path) == std::to_string(i))) ::_exit(255);
+      won += written ? 1 : 0;
+    }
+    ::_exit(won);
+  }
+  ::close(start[0]);
+  ::close(start[1]);
+  int won = 0;
+  for (const pid_t child : children) {
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status));
+    ASSERT_NE(WEXITSTATUS(status), 255);
+    won += WEXITSTATUS(status);
+  }
+  EXPECT_EQ(won, rounds);
+  EXPECT_EQ(folder.fileCount(), std::size_t(rounds));
 }
 
 TEST(File, FollowsSymbolicLinks) {

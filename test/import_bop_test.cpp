@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
+#include <vector>
 
 #include <gmock/gmock.h>
 
@@ -225,6 +227,22 @@ TEST_F(ImportBop, ReplacesNoDataSetUnasked) {
   EXPECT_THAT(refused.errors, HasSubstr("set.yaml' is there already: give another one, or --force"));
   EXPECT_EQ(readTextFile(output()), before);
   EXPECT_EQ(imported("bop", {"--name", "other", "--force"}).name, "other");
+}
+
+TEST_F(ImportBop, OfTwoAtOnceOneAloneWrites) {
+  for (int round = 0; round < 5; ++round) {
+    std::vector<std::future<test::CommandRun>> running;
+    for (const char* name : {"one", "other"}) {
+      running.push_back(std::async(std::launch::async, [&, name] { return import("bop", {"--name", name}); }));
+    }
+    const test::CommandRun runs[] = {running[0].get(), running[1].get()};
+    const int winner = runs[0].status == 0 ? 0 : 1;
+    EXPECT_EQ(runs[winner].status, 0) << runs[winner].errors;
+    EXPECT_EQ(runs[1 - winner].status, 2);
+    EXPECT_THAT(runs[1 - winner].errors, HasSubstr("set.yaml' is there already: give another one, or --force"));
+    EXPECT_EQ(loadDataSet(output()).name, winner == 0 ? "one" : "other");
+    std::filesystem::remove(output());
+  }
 }
 
 }  // namespace

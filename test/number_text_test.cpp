@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/number_text.hpp"
 
-#include <clocale>
 #include <cmath>
-#include <locale>
 
 #include <gtest/gtest.h>
 
 #include "core/settings/number_format.hpp"
 #include "core/settings/value_text.hpp"
+#include "foreign_locale.hpp"
 
 namespace sks {
 namespace {
@@ -51,30 +50,8 @@ TEST(NumberText, LinesMayEndInEveryWay) {
   EXPECT_EQ(all, "a|b|c||d|");
 }
 
-/// Numbers as in Germany, without a locale of the system.
-class CommaNumbers : public std::numpunct<char> {
-  char do_decimal_point() const override { return ','; }
-  char do_thousands_sep() const override { return '.'; }
-  std::string do_grouping() const override { return "\3"; }
-};
-
-class ForeignLocale : public ::testing::Test {
-protected:
-  ForeignLocale() : before_(std::locale::global(std::locale(std::locale::classic(), new CommaNumbers))) {
-    for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "nl_NL.UTF-8"}) {
-      if (std::setlocale(LC_ALL, name) != nullptr) break;  // also C's, where the system has one
-    }
-  }
-  ~ForeignLocale() override {
-    std::locale::global(before_);
-    std::setlocale(LC_ALL, "C");
-  }
-
-private:
-  std::locale before_;
-};
-
-TEST_F(ForeignLocale, ChangesNoNumber) {
+TEST(ForeignLocale, ChangesNoNumber) {
+  const test::CommaLocale foreign;
   EXPECT_EQ(formatted("%.3f %zu %g", 1234.5, std::size_t(1234567), 0.109), "1234.500 1234567 0.109");
   EXPECT_EQ(toText(1234.5), "1234.5");
   EXPECT_EQ(toText(1234567), "1234567");

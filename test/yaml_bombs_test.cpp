@@ -12,6 +12,7 @@
 #include <sks_detector/settings.hpp>
 #include <sks_detector/settings_file.hpp>
 
+#include "error_of.hpp"
 #include "io/dataset.hpp"
 #include "temporary_folder.hpp"
 
@@ -72,7 +73,29 @@ std::vector<std::string> bombs() {
   };
 }
 
+/// Scenes that share one list of objects.
+std::string sharedObjects(int scenes, int objects) {
+  std::string text = "name: x\nunits: m\nmax_distance: 0.05\nscenes:\n  - {name: s, cloud: a.pcd, objects: &o [" +
+                     times(objects, "{object: a, position: [0, 0, 1]},") + "]}\n";
+  for (int i = 0; i < scenes; ++i) text += "  - {name: s" + std::to_string(i) + ", cloud: a.pcd, objects: *o}\n";
+  return text;
+}
+
 }  // namespace
+
+TEST(YamlBombs, AliasesThatMultiplyAreRefused) {
+  const test::TemporaryFolder folder;
+  test::writeFile(folder.path("a.pcd"), "");
+  const DataSet few = parseDataSet(sharedObjects(100, 20), folder.path("few.yaml"));
+  ASSERT_EQ(few.scenes.size(), 101u);
+  EXPECT_EQ(few.scenes.back().objects.size(), 20u);
+  const auto start = std::chrono::steady_clock::now();
+  const std::string refusal =
+      test::errorOf(ErrorCode::bad_file, [] { parseDataSet(sharedObjects(5000, 5000), "bomb.yaml"); });
+  EXPECT_EQ(refusal.rfind("bomb.yaml:30: ", 0), 0u) << refusal;  // the 25th alias
+  EXPECT_NE(refusal.find("the aliases (*name) up to here stand for more than 1000000 values"), std::string::npos);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+}
 
 TEST(YamlBombs, AreReadOrRefusedAtOnce) {
   const test::TemporaryFolder folder;

@@ -17,6 +17,11 @@ constexpr std::uint32_t codebook_file_version = 1;
 /// @throws Error(bad_file) with the path and the system's reason
 std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook);
 
+/// The same where there is no such file yet; one that is there stays as it is, also if another thread or process wrote
+/// it at the same time: of several one alone writes.
+/// @return whether it was written
+bool writeNewCodebook(const std::string& path, const Codebook& codebook);
+
 /// By which a codebook is known: the CRC-32C of the payload of its file, whether it has been written or not. Computed
 /// once for each codebook and then remembered, so do not change a codebook afterwards. May be called by several
 /// threads.

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <climits>
 #include <csignal>
+#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <system_error>
@@ -120,15 +121,45 @@ void AtomicFile::write(const void* data, std::size_t size) {
 }
 
 void AtomicFile::commit() {
+  if (!finishWriting()) return;
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(systemReason());
+  temporary_.clear();
+  syncFolder(folderOf(target_));
+}
+
+bool AtomicFile::commitNew() {
+  if (!finishWriting()) return true;
+  if (!takeFreeName()) return false;
+  syncFolder(folderOf(target_));
+  return true;
+}
+
+/// @return whether the file is still to get its name
+bool AtomicFile::finishWriting() {
   const bool renames = !temporary_.empty();
   if (renames && ::fsync(file_) != 0) fail(systemReason());
   const int closed = ::close(file_);
   file_ = -1;
   if (closed != 0) fail(systemReason());
-  if (!renames) return;
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(systemReason());
+  return renames;
+}
+
+/// Some file systems have one call for this and some the other; one that has neither (FUSE) leaves a gap between the
+/// look and the rename.
+bool AtomicFile::takeFreeName() {
+  const char *from = temporary_.c_str(), *to = target_.c_str();
+  if (::renameat2(AT_FDCWD, from, AT_FDCWD, to, RENAME_NOREPLACE) == 0) {
+    temporary_.clear();
+    return true;
+  }
+  if (errno == EEXIST) return false;
+  if (::link(from, to) == 0) return true;  // the temporary name goes with the destructor
+  if (errno == EEXIST) return false;
+  std::error_code ignored;
+  if (fs::exists(fs::symlink_status(target_, ignored))) return false;
+  if (::rename(from, to) != 0) fail(systemReason());
   temporary_.clear();
-  syncFolder(folderOf(target_));
+  return true;
 }
 
 void AtomicFile::fail(const std::string& reason) const {

@@ -26,7 +26,14 @@ public:
   /// Syncs the file, gives it its name in place of any older file, and syncs the folder.
   void commit();
 
+  /// The same where no file has the name by then; else leaves that file as it is. Of several that do this at once, also
+  /// in other processes, one alone gets the name.
+  /// @return whether it has the name
+  bool commitNew();
+
 private:
+  bool finishWriting();
+  bool takeFreeName();
   [[noreturn]] void fail(const std::string& reason) const;
 
   std::string path_;       // as given, for messages

@@ -114,6 +114,14 @@ FileParts makeParts(const Codebook& codebook, const std::string& path) {
   return parts;
 }
 
+/// All but the name of the file.
+void writeParts(const FileParts& parts, const Codebook& codebook, AtomicFile& file) {
+  file.write(&parts.header, sizeof(parts.header));
+  file.write(parts.metadata.GetBufferPointer(), parts.header.metadata_size);
+  file.write(parts.padding.data(), parts.padding.size());
+  file.write(codebook.descriptors.data(), parts.header.descriptors_size);
+}
+
 }  // namespace
 
 std::uint32_t codebookChecksum(const Codebook& codebook) {
@@ -124,13 +132,18 @@ std::uint32_t codebookChecksum(const Codebook& codebook) {
 std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook) {
   const FileParts parts = makeParts(codebook, path);
   AtomicFile file(path);
-  file.write(&parts.header, sizeof(parts.header));
-  file.write(parts.metadata.GetBufferPointer(), parts.header.metadata_size);
-  file.write(parts.padding.data(), parts.padding.size());
-  file.write(codebook.descriptors.data(), parts.header.descriptors_size);
+  writeParts(parts, codebook, file);
   file.commit();
   codebook.checksum.set(parts.header.payload_checksum);
   return parts.header.payload_checksum;
+}
+
+bool writeNewCodebook(const std::string& path, const Codebook& codebook) {
+  const FileParts parts = makeParts(codebook, path);
+  AtomicFile file(path);
+  writeParts(parts, codebook, file);
+  codebook.checksum.set(parts.header.payload_checksum);
+  return file.commitNew();
 }
 
 }  // namespace sks

@@ -19,6 +19,12 @@ void writeFileAtomically(const std::string& path, const std::string& content) {
   file.commit();
 }
 
+bool writeNewFileAtomically(const std::string& path, const std::string& content) {
+  AtomicFile file(path);
+  file.write(content.data(), content.size());
+  return file.commitNew();
+}
+
 void makeFolder(const std::string& path) {
   std::error_code error;
   std::filesystem::create_directories(path, error);

@@ -10,6 +10,10 @@ namespace sks {
 /// @throws Error(bad_file) naming the path and the system's reason; the old file is then untouched
 void writeFileAtomically(const std::string& path, const std::string& content);
 
+/// The same where there is no such file yet; one that is there stays, also if it came while this one was written.
+/// @return whether it was written
+bool writeNewFileAtomically(const std::string& path, const std::string& content);
+
 /// Makes a folder and those above it, where they are not there. @throws Error(bad_file)
 void makeFolder(const std::string& path);
 

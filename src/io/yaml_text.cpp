@@ -2,7 +2,9 @@
 #include "io/yaml_text.hpp"
 
 #include <algorithm>
+#include <map>
 #include <sstream>
+#include <vector>
 
 #include <yaml-cpp/eventhandler.h>
 
@@ -60,7 +62,7 @@ int lineOfTab(const std::string& text, int at_line) {
   return found;
 }
 
-/// Refuses a second document.
+/// Refuses a second document, and aliases that stand for so much together that a small file would fill the memory.
 class OneDocument : public YAML::EventHandler {
 public:
   explicit OneDocument(const std::string& origin) : origin_(origin) {}
@@ -69,17 +71,52 @@ public:
     if (++documents_ > 1) fail(origin_, mark.line, "a second document in one file; keep one");
   }
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
-  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
-  void OnSequenceEnd() override {}
-  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
-  void OnMapEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t anchor) override { add(anchor); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto known = sizes_.find(anchor);
+    const std::size_t size = known == sizes_.end() ? 1 : known->second;  // 1: it is within itself
+    if (aliased_ += size; aliased_ > most_aliased) {
+      fail(origin_, mark.line,
+           "the aliases (*name) up to here stand for more than " + std::to_string(most_aliased) +
+               " values: write out what they stand for, or split the file");
+    }
+    nodes_ += size;
+  }
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t anchor, const std::string&) override {
+    add(anchor);
+  }
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    begin(anchor);
+  }
+  void OnSequenceEnd() override { end(); }
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t anchor, YAML::EmitterStyle::value) override {
+    begin(anchor);
+  }
+  void OnMapEnd() override { end(); }
 
 private:
+  struct Open {
+    YAML::anchor_t anchor;
+    std::size_t nodes_before;
+  };
+  static constexpr std::size_t most_aliased = 1000000;
+
+  void add(YAML::anchor_t anchor) {
+    ++nodes_;
+    if (anchor != YAML::NullAnchor) sizes_[anchor] = 1;
+  }
+  void begin(YAML::anchor_t anchor) { open_.push_back({anchor, nodes_++}); }
+  void end() {
+    if (open_.back().anchor != YAML::NullAnchor) sizes_[open_.back().anchor] = nodes_ - open_.back().nodes_before;
+    open_.pop_back();
+  }
+
   const std::string& origin_;
   int documents_ = 0;
+  std::size_t nodes_ = 0, aliased_ = 0;  // with all that aliases stand for
+  std::map<YAML::anchor_t, std::size_t> sizes_;
+  std::vector<Open> open_;
 };
 
 /// An upper bound of the nesting: brackets that are open, whatever they stand in, and blocks that one line begins.

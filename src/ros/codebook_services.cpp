@@ -47,7 +47,7 @@ void CodebookServices::save(const SaveCodebook::Request& request, SaveCodebook::
   const sks::Codebook& codebook = detector->codebook();
   context_.checkOverwriting(path, request.overwrite, &codebook);
   makeFolderOf(path);
-  sks::writeCodebook(path, codebook);
+  context_.writeCodebook(path, request.overwrite, codebook);
   context_.slot.setCodebookFile(codebook, path);
   context_.updateStatus();
   response.path = path;

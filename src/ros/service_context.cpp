@@ -69,6 +69,18 @@ void ServiceContext::checkOverwriting(const std::string& path, bool overwrite, c
     refuse("holds the codebook " + nameWithChecksum(*old));
 }
 
+void ServiceContext::writeCodebook(const std::string& path, bool overwrite, const sks::Codebook& codebook) const {
+  if (overwrite) {
+    sks::writeCodebook(path, codebook);
+  } else if (!sks::writeNewCodebook(path, codebook)) {
+    checkOverwriting(path, overwrite, &codebook);
+    if (!fs::exists(path)) {
+      throw sks::Error(sks::ErrorCode::bad_file,
+                       "'" + path + "' was written and removed by another program: try again");
+    }
+  }
+}
+
 void ServiceContext::updateStatus() {
   board.codebookChanged();
   try {

@@ -40,6 +40,11 @@ struct ServiceContext {
   /// than `same` and `overwrite` is not set
   void checkOverwriting(const std::string& path, bool overwrite, const sks::Codebook* same) const;
 
+  /// Writes what checkOverwriting() let pass. A file that came since then, by another node with the same folder, is
+  /// looked at in the same way: it is not replaced unasked.
+  /// @throws sks::Error as checkOverwriting() and sks::writeCodebook()
+  void writeCodebook(const std::string& path, bool overwrite, const sks::Codebook& codebook) const;
+
   /// Tells the status of captured objects, and of the codebook; does not throw.
   void updateStatus();
 };

@@ -59,7 +59,7 @@ void TrainingServices::work(const Train::Request& request, const sks::Progress& 
   const auto codebook = std::make_shared<const sks::Codebook>(sks::train(set.samples, settings, name, progress));
   for (const std::string& warning : sks::trainingWarnings(*codebook)) ROS_WARN_STREAM(warning);
   const std::size_t views = codebook->views.size();
-  if (!output.empty()) sks::writeCodebook(output, *codebook);
+  if (!output.empty()) context_.writeCodebook(output, request.overwrite, *codebook);
   sks::report(progress, {"sorting the codewords", "", views, views});
   {
     const std::lock_guard<std::mutex> lock(context_.codebook_change);

@@ -44,6 +44,15 @@ bool statesUnit(const std::string& content) {
   return false;
 }
 
+/// `<up_axis>Y_UP</up_axis>`; nothing where it is z, as in ROS, or not stated.
+std::string otherUpAxis(const std::string& content) {
+  for (const char* axis : {"X_UP", "Y_UP"}) {
+    const std::size_t at = content.find(axis), tag = content.rfind("<up_axis>", at);
+    if (at != std::string::npos && tag != std::string::npos && content.find('<', tag + 1) > at) return axis;
+  }
+  return "";
+}
+
 Rgb rgbOf(const aiColor4D& color) {
   const auto byte = [](float value) {
     return std::uint8_t(std::lround(255 * (std::isfinite(value) ? std::clamp(value, 0.0f, 1.0f) : 0.0f)));
@@ -139,6 +148,7 @@ FileMesh readAssimpMesh(const MeshFiles& files) {
     addPart(part, *scene->mMaterials[part.mMaterialIndex], mesh);
   }
   mesh.in_metres = gltf || statesUnit(content);
+  if (!gltf) mesh.up_axis = otherUpAxis(content);
   return mesh;
 }
 

@@ -48,6 +48,7 @@ struct FileMesh {
   std::vector<Rgb> face_colors;  ///< one for each face, or empty
   std::vector<FileMaterial> materials;
   bool in_metres = false;  ///< the file states its unit, and the vertices are in metres
+  std::string up_axis;     ///< as in LoadedMesh
 
   std::map<std::string, std::size_t> left_out;  ///< what of the file is not used, and how often it is there
   std::vector<std::string> warnings;            ///< without the name of the file

@@ -86,6 +86,7 @@ LoadedMesh loadMesh(const std::string& path, double scale, const std::string& fo
     const MeshFiles files(std::filesystem::absolute(path).string(), folder);
     const FileMesh file = readFileMesh(files);
     LoadedMesh loaded = assembleMesh(file, files);
+    loaded.up_axis = file.up_axis;
     applyScale(scale, file.in_metres, loaded);
     for (std::string& warning : loaded.warnings) warning = path + ": " + warning;
     return loaded;

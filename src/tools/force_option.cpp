@@ -6,6 +6,8 @@
 
 #include <sks_detector/error.hpp>
 
+#include "io/file.hpp"
+
 namespace sks::tools {
 namespace {
 
@@ -42,6 +44,14 @@ void ForceOption::checkFolder(const std::string& folder) const {
 void ForceOption::checkFile(const std::string& file) const {
   std::error_code ignored;
   if (fs::is_regular_file(file, ignored)) refuse(file, "is there already");
+}
+
+void ForceOption::write(const std::string& file, const std::string& text) const {
+  if (force_) {
+    writeFileAtomically(file, text);
+  } else if (!writeNewFileAtomically(file, text)) {
+    refuse(file, "is there already");
+  }
 }
 
 void ForceOption::refuse(const std::string& path, const std::string& what) const {

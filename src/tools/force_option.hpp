@@ -21,6 +21,10 @@ public:
   /// For a data set file; that is written last, and stays as it is until then. @throws Error(bad_usage)
   void checkFile(const std::string& file) const;
 
+  /// Writes a file that checkFile() or checkFolder() let pass; one that came since then, by another program, is not
+  /// replaced without --force. @throws Error(bad_usage), and what writeFileAtomically() throws
+  void write(const std::string& file, const std::string& text) const;
+
 private:
   void refuse(const std::string& path, const std::string& what) const;
 

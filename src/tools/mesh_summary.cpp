@@ -26,6 +26,9 @@ std::string meshText(const std::string& path, const LoadedMesh& loaded) {
                      std::to_string(mesh.vertices.size()) + " vertices\n";
   text += "size: " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) + " x " + fixed(size.z(), 1) + " mm, unit " +
           (loaded.states_unit ? "stated by the file" : "not stated by the file") + "\n";
+  if (!loaded.up_axis.empty()) {
+    text += "up axis " + loaded.up_axis + " in the file is not applied: its axes are kept, as in rviz and MoveIt\n";
+  }
   text += "triangles with a texture: " + share(colors.textured, mesh) +
           ", with another colour: " + share(colors.painted, mesh) + ", without colour: " + share(colors.none, mesh) +
           "\n";
@@ -48,6 +51,7 @@ nlohmann::json meshJson(const std::string& path, const LoadedMesh& loaded) {
           {"vertices", mesh.vertices.size()},
           {"size_mm", {size.x(), size.y(), size.z()}},
           {"states_unit", loaded.states_unit},
+          {"unused_up_axis", loaded.up_axis},
           {"color", mesh.hasColor()},
           {"triangles_textured", loaded.file_colors.textured},
           {"triangles_painted", loaded.file_colors.painted},

@@ -84,7 +84,7 @@ void run(const SimulateOptions& options) {
       bag->add(simulated.view.cloud, simulated.T_table_camera, set.truth(simulated));
   }
   if (bag) bag->finish();
-  const std::string file = set.finish();
+  const std::string file = set.finish(options.force);
   bar.clear();
   print(std::to_string(total) + " scenes: " + file + "\n");
 }

@@ -97,9 +97,9 @@ void SimulatedSet::add(const SimulatedScene& scene) {
   scenes_ += sceneYaml(entry);
 }
 
-std::string SimulatedSet::finish() const {
+std::string SimulatedSet::finish(const ForceOption& force) const {
   std::string path = (fs::path(folder_) / "dataset.yaml").string();
-  writeFileAtomically(
+  force.write(
       path,
       "# Simulated scenes: exact poses; visibility is the share of an object's pixels that others do not hide,\n"
       "# points how many of the cloud lie on it.\n"

@@ -8,6 +8,7 @@
 
 #include "io/dataset.hpp"
 #include "simulation/scene.hpp"
+#include "tools/force_option.hpp"
 
 namespace sks::tools {
 
@@ -25,8 +26,8 @@ public:
   /// What stands in a scene, in the camera's frame: model frames, boxes, and the share that is seen as the score.
   std::vector<Detection> truth(const SimulatedScene& scene) const;
 
-  /// Writes dataset.yaml. @return its path @throws Error(bad_file)
-  std::string finish() const;
+  /// Writes dataset.yaml. @return its path @throws Error(bad_file), and what ForceOption::write() throws
+  std::string finish(const ForceOption& force) const;
 
 private:
   std::string folder_;

@@ -3,6 +3,7 @@
 """Services that load, save, change and tell about codebooks, switch detection, and detect once."""
 import os
 import shutil
+import subprocess
 import threading
 
 import numpy as np
@@ -81,6 +82,32 @@ class CodebookServicesTest(services_support.ServicesTest):
         with open(self.path("precious.sks"), "w") as file:
             file.write("something else")
         self.refuse("save_codebook", "is not a codebook", path="precious.sks")
+
+    def test_of_two_nodes_that_save_one_name_one_is_refused(self):
+        rospy.set_param("/second/codebook_directory", self.node.codebooks)
+        second = subprocess.Popen(["rosrun", "sks_detector", "detector_node", "__name:=second"])
+        self.addCleanup(lambda: (second.terminate(), second.wait()))
+        call = {name: rospy.ServiceProxy("/second/" + name, services_support.TYPES[name])
+                for name in ("load_codebook", "remove_object", "save_codebook")}
+        for service in call.values():
+            service.wait_for_service(support.PATIENCE)
+        self.assertTrue(call["load_codebook"]("synthetic.sks").success)
+        self.assertTrue(call["remove_object"]("round").success)  # so that the two codebooks differ
+        for i in range(20):
+            name, replies = "race%d.sks" % i, [None, None]
+            savers = [lambda: replies.__setitem__(0, self.node.call("save_codebook", name, False)),
+                      lambda: replies.__setitem__(1, call["save_codebook"](name, False))]
+            threads = [threading.Thread(target=saver) for saver in savers]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            self.assertEqual(sorted(reply.success for reply in replies), [False, True], replies)
+            first_won = replies[0].success
+            self.assertIn("exists already and holds the codebook synthetic (", replies[1 if first_won else 0].message)
+            self.assertEqual(self.succeed("load_codebook", name).objects, ["thing", "round"] if first_won else ["thing"])
+            self.succeed("load_codebook", "synthetic.sks")
+        self.assertFalse([name for name in os.listdir(self.node.codebooks) if ".part" in name])
 
     def test_removes_objects(self):
         before = self.succeed("info")

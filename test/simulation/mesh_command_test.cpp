@@ -9,6 +9,7 @@
 #include "run_sks.hpp"
 #include "simulation/box_files.hpp"
 #include "simulation/mesh_file.hpp"
+#include "simulation/notched_box.hpp"
 
 namespace sks {
 namespace {
@@ -16,6 +17,7 @@ namespace {
 using test::runSks;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 class MeshCommand : public test::MeshFileTest {};
 
@@ -45,6 +47,17 @@ TEST_F(MeshCommand, InfoAsJsonHoldsTheWarnings) {
   EXPECT_EQ(json["triangles_without_color"], 12);
   EXPECT_THAT(json["warnings"][0].get<std::string>(), HasSubstr("'gone.mtl'"));
   EXPECT_THAT(run.errors, HasSubstr("sks: warning: " + path + ": its materials 'gone.mtl' cannot be read"));
+}
+
+TEST_F(MeshCommand, InfoSaysThatTheUpAxisIsNotApplied) {
+  const std::string unit = "<unit name=\"millimeter\" meter=\"0.001\"/>";
+  const std::string path = write("a.dae", test::notchedDae(unit, 1000, "Y_UP"));
+  const test::CommandRun run = runSks({"info", path});
+  EXPECT_THAT(run.output, HasSubstr("size: 140.0 x 90.0 x 60.0 mm, unit stated by the file\n"
+                                    "up axis Y_UP in the file is not applied: its axes are kept"));
+  EXPECT_THAT(run.errors, IsEmpty());
+  write("a.dae", test::notchedDae(unit, 1000));
+  EXPECT_THAT(runSks({"info", path}).output, Not(HasSubstr("up axis")));
 }
 
 TEST_F(MeshCommand, InfoKnowsBuiltinObjects) {

@@ -106,6 +106,16 @@ TEST_F(ObjMesh, TexturesThatCannotBeShownRightAreNotShown) {
   }
 }
 
+TEST_F(ObjMesh, HugeTextureCoordinatesAreRefused) {
+  writeAtlas();
+  write("a.mtl", "newmtl m\nmap_Kd atlas.png\n");
+  for (const char* uv : {"1e9", "-3.4e38", "1e300"}) {
+    const std::string text =
+        "mtllib a.mtl\nusemtl m\nv 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nvt 0 0\nvt 0 " + std::string(uv) + "\nf 1/1 2/2 3/1\n";
+    EXPECT_THAT(refusal(write("a.obj", text)), HasSubstr("texture coordinate")) << uv;
+  }
+}
+
 TEST_F(ObjMesh, PlainMaterialsColourTheirFaces) {
   write("side materials.mtl", sideMaterials());
   const LoadedMesh loaded = loadMesh(write("a.obj", boxObj("mtllib side materials.mtl\nusemtl each\n")));

@@ -75,6 +75,7 @@ TEST_F(MeshUnits, ColladaFilesHaveTheirOwn) {
         const LoadedMesh loaded = loadMesh(path, given);
         test::expectPlainBox(loaded.mesh);
         EXPECT_TRUE(loaded.states_unit);
+        EXPECT_EQ(loaded.up_axis, std::string(up) == "Z_UP" ? "" : up);
         EXPECT_THAT(loaded.warnings, IsEmpty());
       }
     }

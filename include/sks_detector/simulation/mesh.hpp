@@ -47,6 +47,7 @@ struct LoadedMesh {
   std::vector<std::string> warnings;  ///< each naming the file
   MeshColors file_colors;             ///< what the file states
   bool states_unit = false;           ///< the file states its unit: it was used, whatever scale was given
+  std::string up_axis;                ///< what a DAE file calls upwards where that is not z, "Y_UP": it is not applied
 };
 
 /// Reads an OBJ, PLY, STL, DAE or glTF file with its textures and colours (docs/formats.md). A mesh has a colour only

@@ -56,14 +56,14 @@ public:
   std::size_t count() const { return names_.size(); }
 
   /// @throws Error(bad_data) where the bag's names cannot stand in a data set
-  std::string finish(const std::string& name) const {
+  std::string finish(const std::string& name, const ForceOption& force) const {
     std::string path = (folder_ / "dataset.yaml").string();
     const std::string text =
         "# Clouds out of a bag, named by their stamps. Give each scene the objects that stand in "
         "it, and list what is to be trained.\nname: " +
         yamlText(name) + "\nunits: m\nmax_distance: 0.05\nscenes:\n" + scenes_;
     parseDataSet(text, path);  // what would be refused later, such as a name in the bag, is not left behind
-    writeFileAtomically(path, text);
+    force.write(path, text);
     return path;
   }
 
@@ -116,7 +116,8 @@ void run(const BagExtractOptions& options) {
   if (set.count() == 0) {
     throw Error(ErrorCode::bad_data, "'" + options.bag + "': no cloud of " + topic + " can be taken in that time");
   }
-  print(std::to_string(set.count()) + " clouds: " + set.finish(fs::path(options.bag).stem().string()) + "\n");
+  print(std::to_string(set.count()) + " clouds: " + set.finish(fs::path(options.bag).stem().string(), options.force) +
+        "\n");
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ void run(const std::string& format, ImportOptions options, const ForceOption& fo
   if (!options.units.empty()) set.units = options.units;
   const std::string yaml = dataSetYaml(set, options.output);
   const DataSet written = parseDataSet(yaml, options.output);  // what would be refused later is not left behind
-  writeFileAtomically(options.output, yaml);
+  force.write(options.output, yaml);
   for (const std::string& warning : set.warnings) warn(warning);
   for (const std::string& warning : written.warnings) warn(warning);
   std::size_t instances = 0;
