@@ -13,6 +13,7 @@
 #include "tools/evaluation_plots.hpp"
 #include "tools/evaluation_table.hpp"
 #include "tools/method.hpp"
+#include "tools/object_models.hpp"
 #include "tools/progress_bar.hpp"
 
 namespace sks::tools {
@@ -50,7 +51,8 @@ void run(EvaluateOptions& options) {
     warn("object '" + object + "' of the ground truth was never trained: it counts as missed");
   }
   const DetectFunction detect = options.method.detectFunction(codebook, settings);
-  const Evaluation evaluation = evaluate(data_set, detect, options.method.name(), settings, bar.callback());
+  Evaluation evaluation = evaluate(data_set, detect, options.method.name(), settings, bar.callback());
+  scoreAsBop(evaluation, data_set, objectModels(data_set), threadCount(settings), bar.callback());
   bar.clear();
   nlohmann::json json = evaluationJson(evaluation);
   options.method.addSettings(json["settings"]);
