@@ -151,7 +151,7 @@ TEST_F(BopScoresOfPlates, AskForWhatIsVisibleAndNotIgnored) {
 
 TEST_F(BopScoresOfPlates, LookAtAsManyDetectionsAsTargets) {
   addTruth("plate", at(0, 0, 1));
-  addFound("plate", at(0, 0, 2));
+  addFound("plate", at(0.4, 0, 1));
   addFound("plate", at(0, 0, 1));
   EXPECT_EQ(scores().total.ar, 0.0);
   addTruth("plate", at(0.25, 0, 1));

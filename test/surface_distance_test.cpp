@@ -113,7 +113,7 @@ TEST(Diameter, IsTheGreatestDistanceOfTwoPoints) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   std::vector<Eigen::Vector3d> points;  // on an ellipsoid
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 500; ++i) {
     points.push_back(Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized());
     points.back().z() *= 1.1;
   }

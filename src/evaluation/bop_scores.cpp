@@ -5,7 +5,6 @@
 #include <limits>
 
 #include <sks_detector/cloud_io.hpp>
-#include <sks_detector/error.hpp>
 
 #include "evaluation/average_recall.hpp"
 #include "evaluation/depth_rendering.hpp"
@@ -49,54 +48,6 @@ struct ObjectCounts {
   }
 };
 
-/// The models of a data set, each loaded when it is first asked for.
-class Models {
-public:
-  Models(const DataSet& data_set, const ModelLoader& loader) : data_set_(data_set), loader_(loader) {}
-
-  /// @param reason why there is none
-  const ObjectModel* find(const std::string& source, std::string& reason) {
-    auto [found, is_new] = models_.try_emplace(source);
-    if (is_new) load(source, found->second);
-    reason = found->second.fault;
-    return reason.empty() ? &found->second.model : nullptr;
-  }
-
-private:
-  struct Entry {
-    ObjectModel model;
-    std::string fault;
-  };
-
-  bool any() const { return std::any_of(data_set_.training.begin(), data_set_.training.end(), hasModel); }
-
-  static bool hasModel(const TrainingEntry& entry) { return entry.mesh || entry.kind == ViewKind::model; }
-
-  void load(const std::string& source, Entry& entry) const {
-    const auto trained = std::find_if(data_set_.training.begin(), data_set_.training.end(),
-                                      [&](const TrainingEntry& t) { return t.source == source; });
-    if (!any()) {
-      entry.fault = "no mesh or full model is under 'training' in the data set";
-    } else if (source.empty()) {
-      entry.fault = "its ground truth has no pose with a 'reference'";
-    } else if (trained == data_set_.training.end()) {
-      entry.fault = "'" + source + "' is not under 'training' in the data set";
-    } else if (!hasModel(*trained)) {
-      entry.fault = "it is trained from views: a mesh or a full model is needed";
-    } else {
-      try {
-        entry.model = loader_(*trained);
-      } catch (const Error& error) {
-        entry.fault = error.what();
-      }
-    }
-  }
-
-  const DataSet& data_set_;
-  const ModelLoader& loader_;
-  std::map<std::string, Entry> models_;
-};
-
 /// A true or found pose of a model.
 struct PosedModel {
   const ObjectModel* model;
@@ -127,7 +78,7 @@ std::map<std::string, Instances> instancesOf(const Scene& scene, const std::vect
 /// Takes the errors of one object in one scene.
 class SceneErrors {
 public:
-  SceneErrors(const std::optional<SceneDepth>& depth, Models& models) : depth_(depth), models_(models) {}
+  SceneErrors(const std::optional<SceneDepth>& depth, ModelCache& models) : depth_(depth), models_(models) {}
 
   void add(const std::string& scene, const Instances& instances, ObjectCounts& counts) const {
     counts.targets += instances.targets.size();
@@ -207,7 +158,7 @@ private:
   }
 
   const std::optional<SceneDepth>& depth_;
-  Models& models_;
+  ModelCache& models_;
 };
 
 BopRecall recallOf(const ObjectCounts& counts) {
@@ -228,14 +179,15 @@ BopRecall recallOf(const ObjectCounts& counts) {
 
 BopScores bopScores(const DataSet& data_set, const std::vector<std::vector<MatchedDetection>>& found,
                     const ModelLoader& loader, int threads, const Progress& progress) {
-  Models models(data_set, loader);
+  ModelCache models(data_set, loader);
   std::map<std::string, ObjectCounts> objects;
   for (std::size_t i = 0; i < data_set.scenes.size(); ++i) {
     const Scene& scene = data_set.scenes[i];
     report(progress, {"taking BOP errors", scene.name, i, data_set.scenes.size()});
     const std::map<std::string, Instances> instances = instancesOf(scene, found[i]);
     if (instances.empty()) continue;
-    const std::optional<SceneDepth> depth = sceneDepth(readCloud(scene.path, data_set.scale), threads);
+    std::optional<SceneDepth> depth;
+    if (models.any()) depth = sceneDepth(readCloud(scene.path, data_set.scale), threads);
     const SceneErrors errors(depth, models);
     for (const auto& [object, group] : instances) errors.add(scene.name, group, objects[object]);
   }

@@ -3,16 +3,14 @@
 // on 6D Object Localization", ECCV Workshops 2020.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <sks_detector/progress.hpp>
 
-#include "evaluation/object_model.hpp"
+#include "evaluation/model_cache.hpp"
 #include "evaluation/scene_matching.hpp"
 #include "io/dataset.hpp"
 
@@ -30,9 +28,6 @@ struct BopScores {
   std::map<std::string, BopRecall> objects;         ///< those that have targets
   std::map<std::string, std::string> shortcomings;  ///< of an object: why errors cannot be taken
 };
-
-/// The model of a training cloud. May throw Error: then its object has no errors, for the reason that is thrown.
-using ModelLoader = std::function<ObjectModel(const TrainingEntry& entry)>;
 
 /// Scores what was found. Targets are the instances of which at least 10 % is visible and whose object is not ignored.
 /// @param found the detections of each scene, best first, in the order of the data set @param threads change nothing

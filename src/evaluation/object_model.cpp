@@ -72,8 +72,10 @@ double diameterOf(const std::vector<Eigen::Vector3d>& points) {
   std::sort(extremes.begin(), extremes.end());
   extremes.erase(std::unique(extremes.begin(), extremes.end()), extremes.end());
   double diameter = 0;
-  for (const std::size_t a : extremes) {
-    for (const std::size_t b : extremes) diameter = std::max(diameter, (points[a] - points[b]).norm());
+  for (std::size_t i = 0; i < extremes.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      diameter = std::max(diameter, (points[extremes[i]] - points[extremes[k]]).norm());
+    }
   }
   return diameter;
 }

@@ -68,7 +68,9 @@ void run(EvaluateOptions& options) {
 
 void addEvaluate(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "evaluate", "trains unless given a codebook, detects in every scene of a data set and scores what was found");
+      "evaluate",
+      "trains unless given a codebook, detects in every scene of a data set and scores what was found, also "
+      "as the BOP challenge does where there are meshes");
   const auto options = std::make_shared<EvaluateOptions>();
   command->add_option("--dataset,-d", options->dataset, "data set file (YAML) with the ground truth")
       ->required()
