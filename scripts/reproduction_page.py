@@ -32,6 +32,7 @@ PAPER_KEYPOINTS = {'grid': 0.01, 'sks-50': 0.06, 'iss': 1.0}
 
 BY_HAND = '<!-- What follows is written by hand and kept by scripts/reproduce. -->'
 
+
 def number(value, digits):
     return '-' if value is None else f'{value:.{digits}f}'
 
@@ -186,6 +187,7 @@ def write(path, runs, pictures, threads):
                     keypoint_tables(by_command['keypoints']))
         for label, picture in pictures:
             shutil.copy(picture, os.path.join(folder, f'evaluation_keypoints_{label}.png'))
-    text.append(by_hand(path))
+    if by_hand(path):
+        text.append(by_hand(path))
     with open(path, 'w', encoding='utf-8') as file:
         file.write('\n'.join(text))
