@@ -22,11 +22,11 @@ ObjectModel boxModel() {
   return model;
 }
 
-Eigen::Isometry3d turned(double degrees, const Eigen::Vector3d& axis = Eigen::Vector3d::UnitZ()) {
+Eigen::Isometry3d turnedBy(double degrees, const Eigen::Vector3d& axis = Eigen::Vector3d::UnitZ()) {
   return Eigen::Isometry3d(Eigen::AngleAxisd(degrees * EIGEN_PI / 180, axis));
 }
 
-const Eigen::Isometry3d somewhere = at(0.1, -0.2, 0.9) * turned(40, Eigen::Vector3d(1, 2, 3).normalized());
+const Eigen::Isometry3d somewhere = at(0.1, -0.2, 0.9) * turnedBy(40, Eigen::Vector3d(1, 2, 3).normalized());
 
 TEST(SurfaceDistance, OfATranslationIsItsLength) {
   const Eigen::Vector3d way(0.02, -0.03, 0.06);  // 0.07 m
@@ -37,16 +37,17 @@ TEST(SurfaceDistance, OfATranslationIsItsLength) {
 TEST(SurfaceDistance, OfARotationIsThatOfTheFarthestVertex) {
   for (const double degrees : {5.0, 60.0, 90.0, 180.0}) {
     const double expected = 2 * 0.1 * std::sin(degrees / 2 * EIGEN_PI / 180);
-    EXPECT_NEAR(surfaceDistance(boxModel(), somewhere * turned(degrees), somewhere), expected, 1e-12) << degrees;
+    EXPECT_NEAR(surfaceDistance(boxModel(), somewhere * turnedBy(degrees), somewhere), expected, 1e-12) << degrees;
   }
 }
 
 TEST(SurfaceDistance, TakesTheNearestOfAllPosesThatLookTheSame) {
   ObjectModel box = boxModel();
   box.symmetries = symmetryMotions(listedSymmetries({Eigen::Vector3d::UnitZ(), 2}, Eigen::Vector3d::Zero()));
-  EXPECT_NEAR(surfaceDistance(box, somewhere * turned(180), somewhere), 0, 1e-12);
-  EXPECT_NEAR(surfaceDistance(box, somewhere * turned(170), somewhere), 2 * 0.1 * std::sin(5 * EIGEN_PI / 180), 1e-12);
-  EXPECT_GT(surfaceDistance(box, somewhere * turned(180, Eigen::Vector3d::UnitX()), somewhere), 0.19);
+  EXPECT_NEAR(surfaceDistance(box, somewhere * turnedBy(180), somewhere), 0, 1e-12);
+  EXPECT_NEAR(surfaceDistance(box, somewhere * turnedBy(170), somewhere), 2 * 0.1 * std::sin(5 * EIGEN_PI / 180),
+              1e-12);
+  EXPECT_GT(surfaceDistance(box, somewhere * turnedBy(180, Eigen::Vector3d::UnitX()), somewhere), 0.19);
 }
 
 TEST(SurfaceDistance, BodiesOfRevolutionMayStandBetweenTwoSteps) {
@@ -54,14 +55,15 @@ TEST(SurfaceDistance, BodiesOfRevolutionMayStandBetweenTwoSteps) {
   box.symmetries = symmetryMotions(listedSymmetries({Eigen::Vector3d::UnitZ(), 0}, Eigen::Vector3d::Zero()));
   const double half_step = EIGEN_PI / double(box.symmetries.size());
   for (const double degrees : {37.0, 123.4, 300.0}) {
-    EXPECT_LE(surfaceDistance(box, somewhere * turned(degrees), somewhere), 2 * 0.1 * std::sin(half_step / 2) + 1e-12);
+    EXPECT_LE(surfaceDistance(box, somewhere * turnedBy(degrees), somewhere),
+              2 * 0.1 * std::sin(half_step / 2) + 1e-12);
   }
 }
 
 TEST(SurfaceDistance, AnAxisNeedNotGoThroughTheOrigin) {
   ObjectModel box = boxModel();
   for (Eigen::Vector3d& point : box.points) point.x() += 0.5;
-  const Eigen::Isometry3d half_turn = at(0.5, 0, 0) * turned(180) * at(-0.5, 0, 0);
+  const Eigen::Isometry3d half_turn = at(0.5, 0, 0) * turnedBy(180) * at(-0.5, 0, 0);
   EXPECT_GT(surfaceDistance(box, somewhere * half_turn, somewhere), 0.19);
   box.symmetries = symmetryMotions(listedSymmetries({Eigen::Vector3d::UnitZ(), 2}, Eigen::Vector3d(0.5, 0, 0)));
   EXPECT_NEAR(surfaceDistance(box, somewhere * half_turn, somewhere), 0, 1e-12);
@@ -74,12 +76,12 @@ TEST(SurfaceDistance, AnAxisNeedNotGoThroughTheOrigin) {
 TEST(SurfaceDistance, DiscreteSymmetriesAreCombinedWithThoseAboutAnAxis) {
   ObjectSymmetries listed;
   listed.continuous.push_back({});
-  listed.discrete.push_back(turned(180, Eigen::Vector3d::UnitX()));
+  listed.discrete.push_back(turnedBy(180, Eigen::Vector3d::UnitX()));
   ObjectModel box = boxModel();
   box.symmetries = symmetryMotions(listed);
   EXPECT_EQ(box.symmetries.size(), 2 * 315u);  // steps of at most 1 % of the diameter: pi / 0.01
   EXPECT_TRUE(box.symmetries[0].isApprox(Eigen::Isometry3d::Identity()));
-  const Eigen::Isometry3d both = turned(77) * turned(180, Eigen::Vector3d::UnitX());
+  const Eigen::Isometry3d both = turnedBy(77) * turnedBy(180, Eigen::Vector3d::UnitX());
   EXPECT_LE(surfaceDistance(box, somewhere * both, somewhere), 0.001);
   EXPECT_EQ(symmetryMotions({}).size(), 1u);
 }
@@ -97,7 +99,7 @@ TEST(ProjectionDistance, OfALateralShiftIsFocalLengthTimesShiftOverDepth) {
 TEST(ProjectionDistance, TakesTheNearestOfAllPosesThatLookTheSame) {
   ObjectModel plate = test::plate();
   const Eigen::Vector3d center(0.005, 0.005, 0);
-  const Eigen::Isometry3d quarter = Eigen::Translation3d(center) * turned(90) * Eigen::Translation3d(-center);
+  const Eigen::Isometry3d quarter = Eigen::Translation3d(center) * turnedBy(90) * Eigen::Translation3d(-center);
   EXPECT_NEAR(projectionDistance(plate, test::plateCamera(), at(0, 0, 1) * quarter, at(0, 0, 1)), 20, 1e-9);
   plate.symmetries = symmetryMotions(listedSymmetries({Eigen::Vector3d::UnitZ(), 4}, center));
   EXPECT_NEAR(projectionDistance(plate, test::plateCamera(), at(0, 0, 1) * quarter, at(0, 0, 1)), 0, 1e-9);

@@ -27,13 +27,13 @@ DepthMap drawn(const Eigen::Isometry3d& pose) {
 }
 
 /// A scene in which the same depth was measured everywhere; 0: nothing.
-SceneDepth measured(float depth) {
+SceneDepth sceneAt(float depth) {
   return {plateCamera(), DepthMap(std::size_t(plateCamera().width * plateCamera().height), depth)};
 }
 
 /// A surface half a metre away in the columns 51 to 60, before a wall at 2 m.
 SceneDepth occluded() {
-  SceneDepth scene = measured(2);
+  SceneDepth scene = sceneAt(2);
   for (int row = 0; row < scene.camera.height; ++row) {
     for (int column = 51; column <= 60; ++column) scene.depth[pixelOf(column, row)] = 0.5f;
   }
@@ -93,30 +93,30 @@ TEST(RenderDepth, NothingIsSeenOutsideThePictureAndBehindTheCamera) {
 
 TEST(VisibleSurface, ShiftedByHalfItsWidthTwoThirdsDiffer) {
   // 20 columns each, 10 in common: 20 of 30 are covered by one of them alone
-  for (const SceneDepth& scene : {measured(0), measured(2), measured(1)}) {
+  for (const SceneDepth& scene : {sceneAt(0), sceneAt(2), sceneAt(1)}) {
     EXPECT_DOUBLE_EQ(vsd(at(0.1, 0, 1), at(0, 0, 1), scene), 2.0 / 3);
     EXPECT_DOUBLE_EQ(vsd(at(0, 0.1, 1), at(0, 0, 1), scene), 2.0 / 3);
   }
-  EXPECT_EQ(vsd(at(0, 0, 1), at(0, 0, 1), measured(2)), 0);
-  EXPECT_EQ(vsd(at(0.3, 0, 1), at(0, 0, 1), measured(2)), 1);
+  EXPECT_EQ(vsd(at(0, 0, 1), at(0, 0, 1), sceneAt(2)), 0);
+  EXPECT_EQ(vsd(at(0.3, 0, 1), at(0, 0, 1), sceneAt(2)), 1);
 }
 
 TEST(VisibleSurface, AlongTheRayTheToleranceDecides) {
   // at 1.04 m the same pixels are covered; rays are up to 2 % longer than their depth
-  EXPECT_EQ(vsd(at(0, 0, 1.04), at(0, 0, 1), measured(2), 0.045), 0);
-  EXPECT_EQ(vsd(at(0, 0, 1.04), at(0, 0, 1), measured(2), 0.035), 1);
+  EXPECT_EQ(vsd(at(0, 0, 1.04), at(0, 0, 1), sceneAt(2), 0.045), 0);
+  EXPECT_EQ(vsd(at(0, 0, 1.04), at(0, 0, 1), sceneAt(2), 0.035), 1);
   // where the true pose is visible the found one is, although the measured surface lies before it
-  EXPECT_EQ(vsd(at(0, 0, 1.04), at(0, 0, 1), measured(1), 0.045), 0);
+  EXPECT_EQ(vsd(at(0, 0, 1.04), at(0, 0, 1), sceneAt(1), 0.045), 0);
   const std::vector<double> both =
-      visibleSurfaceDiscrepancy(drawn(at(0, 0, 1.04)), drawn(at(0, 0, 1)), measured(2), {0.02, 0.03, 0.05, 0.1});
+      visibleSurfaceDiscrepancy(drawn(at(0, 0, 1.04)), drawn(at(0, 0, 1)), sceneAt(2), {0.02, 0.03, 0.05, 0.1});
   EXPECT_EQ(both, (std::vector<double>{1, 1, 0, 0}));
 }
 
 TEST(VisibleSurface, DistancesAreAlongTheRay) {
   // far from the centre of the picture: ray lengths from 1.024 (column 72) to 1.17 at 1.04 m minus 1 m
   const Eigen::Isometry3d near = at(-0.4, -0.3, 1), far = at(-0.4 * 1.04, -0.3 * 1.04, 1.04);
-  EXPECT_EQ(vsd(far, near, measured(2), 0.041), 1);
-  EXPECT_EQ(vsd(far, near, measured(2), 0.051), 0);
+  EXPECT_EQ(vsd(far, near, sceneAt(2), 0.041), 1);
+  EXPECT_EQ(vsd(far, near, sceneAt(2), 0.051), 0);
 }
 
 TEST(VisibleSurface, WhatIsOccludedDoesNotCount) {
@@ -125,12 +125,12 @@ TEST(VisibleSurface, WhatIsOccludedDoesNotCount) {
   EXPECT_EQ(vsd(at(0.1, 0, 1), at(0, 0, 1), occluded()), 1);
   // true 41 to 50, found 46 to 50 and 61 to 65: 5 of 15 columns in common, without the occluder 15 of 25
   EXPECT_DOUBLE_EQ(vsd(at(0.05, 0, 1), at(0, 0, 1), occluded()), 10.0 / 15);
-  EXPECT_DOUBLE_EQ(vsd(at(0.05, 0, 1), at(0, 0, 1), measured(2)), 10.0 / 25);
+  EXPECT_DOUBLE_EQ(vsd(at(0.05, 0, 1), at(0, 0, 1), sceneAt(2)), 10.0 / 25);
 }
 
 TEST(VisibleSurface, SurfacesOf15MillimetresBeforeItDoNotOcclude) {
-  EXPECT_EQ(vsd(at(0, 0, 1), at(0, 0, 1), measured(0.99f)), 0);
-  EXPECT_EQ(vsd(at(0, 0, 1), at(0, 0, 1), measured(0.98f)), 1);  // nothing is visible
+  EXPECT_EQ(vsd(at(0, 0, 1), at(0, 0, 1), sceneAt(0.99f)), 0);
+  EXPECT_EQ(vsd(at(0, 0, 1), at(0, 0, 1), sceneAt(0.98f)), 1);  // nothing is visible
 }
 
 TEST(SceneDepth, FindsTheCameraOfAnOrganisedCloud) {

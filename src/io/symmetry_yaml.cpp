@@ -11,7 +11,7 @@ namespace {
 constexpr double rigid_tolerance = 1e-3;  // of each entry of R^T R - I and of the last row
 constexpr std::size_t most_discrete = 1000, most_continuous = 10;
 
-Eigen::Vector3d readAxis(const YamlMap& map) {
+Eigen::Vector3d unitAxis(const YamlMap& map) {
   const std::vector<double> axis = map.numbers("axis", 3);
   const Eigen::Vector3d direction(axis[0], axis[1], axis[2]);
   if (direction.norm() < 1e-9) map.fail("axis", "must have a length");
@@ -29,7 +29,7 @@ std::vector<YAML::Node> limitedList(const YamlMap& map, const std::string& key, 
 Symmetry readSymmetry(const YamlMap& entry) {
   const YamlMap part(entry.at("symmetry"), entry.file(), "a symmetry", {"axis", "order"});
   Symmetry symmetry;
-  symmetry.axis = readAxis(part);
+  symmetry.axis = unitAxis(part);
   if (part.text("order") == "inf") return symmetry;
   const double order = part.number("order");
   if (order < 2 || order > 1000 || order != std::floor(order)) {
@@ -50,7 +50,7 @@ std::optional<ObjectSymmetries> readSymmetries(const YamlMap& entry, double scal
   for (const YAML::Node& item : limitedList(entry, "symmetries_continuous", most_continuous)) {
     const YamlMap part(item, entry.file(), "a continuous symmetry", {"axis", "offset"});
     ObjectSymmetries::Axis axis;
-    axis.direction = readAxis(part);
+    axis.direction = unitAxis(part);
     if (part.has("offset")) axis.position = scale * Eigen::Vector3d(part.numbers("offset", 3).data());
     symmetries.continuous.push_back(axis);
   }
