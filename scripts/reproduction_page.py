@@ -30,6 +30,8 @@ PAPER_CLASSIFICATION = {
 # relative time of keypoint detection
 PAPER_KEYPOINTS = {'grid': 0.01, 'sks-50': 0.06, 'iss': 1.0}
 
+BY_HAND = '<!-- What follows is written by hand and kept by scripts/reproduce. -->'
+
 
 def number(value, digits):
     return '-' if value is None else f'{value:.{digits}f}'
@@ -151,6 +153,15 @@ def machine(threads):
     return f'{model}, {os.cpu_count()} cores, {memory}; {threads} thread{"" if threads == 1 else "s"} a run.'
 
 
+def by_hand(path):
+    """What stands in the page from BY_HAND on; empty where there is none."""
+    if not os.path.exists(path):
+        return ''
+    with open(path, encoding='utf-8') as file:
+        _, mark, rest = file.read().partition(BY_HAND)
+    return mark + rest
+
+
 def write(path, runs, pictures, threads):
     """@param runs [(name of the data set, job, result)] @param pictures [(name of the data set, file)]"""
     folder = os.path.dirname(os.path.abspath(path))
@@ -176,5 +187,7 @@ def write(path, runs, pictures, threads):
                     keypoint_tables(by_command['keypoints']))
         for label, picture in pictures:
             shutil.copy(picture, os.path.join(folder, f'evaluation_keypoints_{label}.png'))
+    if by_hand(path):
+        text.append(by_hand(path))
     with open(path, 'w', encoding='utf-8') as file:
         file.write('\n'.join(text))

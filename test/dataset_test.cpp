@@ -52,6 +52,42 @@ protected:
   test::TemporaryFolder folder_;
 };
 
+TEST_F(DataSetFile, SymmetriesAndDiameterAreInUnitsOfTheEntry) {
+  const std::string lists =
+      "diameter: 120, symmetries_discrete: [{pose: [-1, 0, 0, 10, 0, -1, 0, 20, 0, 0, 1, 0, 0, 0, 0, 1]}], "
+      "symmetries_continuous: [{axis: [0, 0, 2], offset: [10, 20, 0]}, {axis: [1, 0, 0]}]";
+  const DataSet data_set = load(head + "training:\n  - {object: duck, cloud: ../views/duck0.pcd, kind: mesh, " + lists +
+                                "}\n  - {object: swan, cloud: ../views/duck1.pcd, kind: mesh, units: cm, " + lists +
+                                "}\n  - {object: hen, cloud: ../views/duck1.pcd, kind: mesh}\n");
+  for (const auto& [entry, unit] :
+       {std::make_pair(data_set.training[0], 0.001), std::make_pair(data_set.training[1], 0.01)}) {
+    EXPECT_DOUBLE_EQ(*entry.diameter, 120 * unit);
+    ASSERT_TRUE(entry.symmetries);
+    ASSERT_EQ(entry.symmetries->discrete.size(), 1u);
+    const Eigen::Vector3d moved = entry.symmetries->discrete[0] * Eigen::Vector3d(unit, 2 * unit, 3 * unit);
+    EXPECT_NEAR((moved - unit * Eigen::Vector3d(9, 18, 3)).norm(), 0, 1e-12);
+    ASSERT_EQ(entry.symmetries->continuous.size(), 2u);
+    EXPECT_EQ(entry.symmetries->continuous[0].direction, Eigen::Vector3d(0, 0, 1));
+    EXPECT_NEAR((entry.symmetries->continuous[0].position - unit * Eigen::Vector3d(10, 20, 0)).norm(), 0, 1e-12);
+    EXPECT_EQ(entry.symmetries->continuous[1].position, Eigen::Vector3d(0, 0, 0));
+  }
+  EXPECT_FALSE(data_set.training[2].diameter);
+  EXPECT_FALSE(data_set.training[2].symmetries);
+}
+
+TEST_F(DataSetFile, SymmetriesAndDiameterThatCannotBeAreRefused) {
+  const auto refused = [&](const std::string& keys) {
+    return refusal(head + "training:\n  - {object: duck, cloud: ../views/duck0.pcd, kind: mesh, " + keys + "}\n");
+  };
+  EXPECT_THAT(refused("diameter: 0"), HasSubstr("toys.yaml:5: 'diameter' of a training cloud must be greater than 0"));
+  EXPECT_THAT(refused("symmetries_discrete: [{pose: [2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 1]}]"),
+              HasSubstr("'pose' of a discrete symmetry is not rigid"));
+  EXPECT_THAT(refused("symmetries_continuous: [{axis: [0, 0, 0]}]"),
+              HasSubstr("'axis' of a continuous symmetry must have a length"));
+  EXPECT_THAT(refused("symmetries_continuous: [{offset: [0, 0, 0]}]"), HasSubstr("needs the key 'axis'"));
+  EXPECT_THAT(refused("symmetries_discrete: [1]"), HasSubstr("a discrete symmetry must be a map"));
+}
+
 TEST_F(DataSetFile, IsReadInMetres) {
   const DataSet data_set = load(head + R"(training:
   - {object: duck, cloud: ../views/./duck0.pcd, kind: view}

@@ -133,6 +133,19 @@ TEST_F(EvaluateCommand, FindsWhatWasTrainedAndCountsWhatWasNot) {
   EXPECT_EQ(result["threshold_sweep"].size(), 21u);
 }
 
+TEST_F(EvaluateCommand, WithoutMeshesThereAreNoBopErrors) {
+  const json result = evaluated();
+  EXPECT_EQ(result["bop"]["targets"], 2);
+  for (const char* error : {"vsd", "mssd", "mspd", "ar"}) {
+    EXPECT_TRUE(result["bop"].contains(error));
+    EXPECT_TRUE(result["bop"][error].is_null()) << error;
+    EXPECT_TRUE(result["per_object"]["bumps"]["bop"][error].is_null()) << error;
+  }
+  const std::string reason = "no mesh or full model is under 'training' in the data set";
+  EXPECT_EQ(result["bop"]["not_available"], (json{{"bumps", reason}, {"ghost", reason}}));
+  EXPECT_THAT(evaluate().output, HasSubstr("BOP errors not available for bumps, ghost: " + reason));
+}
+
 TEST_F(EvaluateCommand, GivesEverySceneAndTheTimesOfTheStages) {
   const json result = evaluated();
   const std::set<std::string> stages{"total",       "sanitize", "normals", "keypoints",

@@ -75,6 +75,9 @@ TEST_F(ImportBop, TakesModelsPosesAndVisibility) {
   EXPECT_EQ(set.training[1].symmetry->order, 2);
   EXPECT_NEAR(std::abs(set.training[1].symmetry->axis.z()), 1, 1e-6);
 
+  EXPECT_NEAR(*set.training[0].diameter, 0.070, 1e-12);
+  EXPECT_NEAR(*set.training[1].diameter, 0.017, 1e-12);
+
   ASSERT_EQ(set.scenes.size(), 1u);
   const Scene& scene = set.scenes[0];
   EXPECT_EQ(scene.name, "000002/000003");
@@ -88,6 +91,32 @@ TEST_F(ImportBop, TakesModelsPosesAndVisibility) {
       (*scene.objects[0].T_scene_reference * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(0.001, 1.002, 0.8)).norm(), 0,
       1e-9);
   EXPECT_THAT(scene.ignore, ElementsAre("obj_000005"));
+}
+
+TEST_F(ImportBop, KeepsEverySymmetry) {
+  write("models/models_info.json",
+        R"({"1": {"diameter": 70,
+                  "symmetries_discrete": [[1,0,0,0, 0,-1,0,4, 0,0,-1,60, 0,0,0,1], [-1,0,0,0, 0,1,0,0, 0,0,-1,60, 0,0,0,1]],
+                  "symmetries_continuous": [{"axis": [0, 0, 1], "offset": [1, 2, 0]}]},
+            "5": {"diameter": 17,
+                  "symmetries_discrete": [[1,0,0,0, 0,-1,0,0, 0,0,-1,0, 0,0,0,1], [-1,0,0,0, 0,1,0,0, 0,0,-1,0, 0,0,0,1]]}})");
+  const DataSet set = imported("bop");
+  ASSERT_TRUE(set.training[0].symmetries && set.training[1].symmetries);
+  const ObjectSymmetries& both = *set.training[0].symmetries;
+  ASSERT_EQ(both.discrete.size(), 2u);
+  const Eigen::Vector3d moved = both.discrete[0] * Eigen::Vector3d(0.001, 0.001, 0.001);
+  EXPECT_NEAR((moved - Eigen::Vector3d(0.001, 0.003, 0.059)).norm(), 0, 1e-9);
+  ASSERT_EQ(both.continuous.size(), 1u);
+  EXPECT_NEAR((both.continuous[0].position - Eigen::Vector3d(0.001, 0.002, 0)).norm(), 0, 1e-12);
+  EXPECT_EQ(set.training[1].symmetries->discrete.size(), 2u);
+  EXPECT_FALSE(set.training[1].symmetry);  // not about one axis: training has no word for it
+}
+
+TEST_F(ImportBop, SymmetriesThatAreNoneAreRefused) {
+  write("models/models_info.json", R"({"1": {"symmetries_discrete": [[2,0,0,0, 0,2,0,0, 0,0,2,0, 0,0,0,1]]}})");
+  EXPECT_THAT(refusal("bop"), HasSubstr("models_info.json: object 1, symmetries_discrete: is scaled by 2"));
+  write("models/models_info.json", R"({"1": {"symmetries_continuous": [{"offset": [0, 0, 0]}]}})");
+  EXPECT_THAT(refusal("bop"), HasSubstr("object 1, symmetries_continuous: the key 'axis' is missing"));
 }
 
 TEST_F(ImportBop, TurnsDepthIntoOrganisedCloudsInMillimetres) {

@@ -124,4 +124,11 @@ void scoreScenes(Evaluation& evaluation) {
   evaluation.times = timeSpreads(evaluation.scenes);
 }
 
+void scoreAsBop(Evaluation& evaluation, const DataSet& data_set, const ModelLoader& loader, int threads,
+                const Progress& progress) {
+  std::vector<std::vector<MatchedDetection>> found;
+  for (const SceneResult& scene : evaluation.scenes) found.push_back(scene.detections);
+  evaluation.bop = bopScores(data_set, found, loader, threads, progress);
+}
+
 }  // namespace sks

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 #include <sks_detector/progress.hpp>
 #include <sks_detector/settings.hpp>
 
+#include "evaluation/bop_scores.hpp"
 #include "evaluation/metrics.hpp"
 #include "evaluation/scene_matching.hpp"
 #include "io/dataset.hpp"
@@ -66,6 +68,8 @@ struct Evaluation {
   std::vector<std::pair<std::string, TimeQuantiles>>
       times;                  ///< of each stage, `total` first; reading files not counted
   double peak_memory_mb = 0;  ///< greatest resident size of the process so far [MiB]
+
+  std::optional<BopScores> bop;  ///< of scoreAsBop()
 };
 
 /// Detects in every scene and scores what is found.
@@ -79,6 +83,10 @@ Evaluation evaluate(const DataSet& data_set, const DetectFunction& detect, const
 
 /// The part of evaluate() that scores what was found: fills in total, objects and times from the scenes.
 void scoreScenes(Evaluation& evaluation);
+
+/// Fills in the average recalls of the BOP challenge. @param threads change nothing @throws what bopScores() throws
+void scoreAsBop(Evaluation& evaluation, const DataSet& data_set, const ModelLoader& loader, int threads,
+                const Progress& progress = {});
 
 /// Name and seconds of each stage, `total` first, then in the order of the stages.
 std::vector<std::pair<std::string, double>> namedTimes(const StageTimes& times);

@@ -8,14 +8,13 @@
 #include <set>
 #include <utility>
 
-#include <Eigen/SVD>
-
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
 
 #include "core/settings/name_text.hpp"
 #include "io/file.hpp"
 #include "io/length_unit.hpp"
+#include "io/symmetry_yaml.hpp"
 #include "io/yaml_map.hpp"
 #include "io/yaml_text.hpp"
 
@@ -30,7 +29,6 @@ bool isBuiltin(const std::string& path) {
 }
 
 constexpr double largest_max_distance = 100, farthest_position = 1e4;  // [m]
-constexpr double rigid_tolerance = 1e-3;                               // of each entry of R^T R - I and of the last row
 constexpr double most_points = 1e9;
 
 /// Reads the parts of one file; keeps what all of them need.
@@ -63,7 +61,6 @@ private:
   std::string resolve(const std::string& path) const { return (folder_ / path).lexically_normal().string(); }
   bool isMissing(const YamlMap& map) const;
   std::string cloudPath(const YamlMap& map) const;
-  Symmetry readSymmetry(const YamlMap& map) const;
 
   std::string file_;
   fs::path folder_;
@@ -78,7 +75,9 @@ DataSet DataSetReader::read(const std::string& text) {
   data_set_.name = map.name("name");
   readUnits(map);
   for (const YAML::Node& item : map.list("training")) {
-    readTraining(mapOf(item, "a training cloud", {"object", "cloud", "kind", "symmetry", "units"}));
+    readTraining(mapOf(
+        item, "a training cloud",
+        {"object", "cloud", "kind", "symmetry", "units", "diameter", "symmetries_discrete", "symmetries_continuous"}));
   }
   for (const YAML::Node& item : map.list("scenes")) {
     readScene(mapOf(item, "a scene", {"name", "cloud", "objects", "ignore"}));
@@ -154,26 +153,16 @@ void DataSetReader::readTraining(const YamlMap& map) {
   if (isBuiltin(entry.path) && !entry.mesh) map.fail("kind", "must be mesh for the built-in object " + entry.path);
   if (map.has("symmetry")) entry.symmetry = readSymmetry(map);
   if (map.has("units")) entry.scale = scaleOf(map);
+  const double scale = entry.scale.value_or(data_set_.scale);
+  entry.symmetries = readSymmetries(map, scale);
+  if (map.has("diameter")) {
+    entry.diameter = scale * map.number("diameter");
+    if (*entry.diameter <= 0) map.fail("diameter", "must be greater than 0");
+  }
   if (left_out) {
     warn(map.at("cloud"), "cloud '" + entry.path + "' of object '" + entry.object + "' does not exist: it is left out");
   }
   (left_out ? data_set_.missing : data_set_.training).push_back(std::move(entry));
-}
-
-Symmetry DataSetReader::readSymmetry(const YamlMap& map) const {
-  const YamlMap part = mapOf(map.at("symmetry"), "a symmetry", {"axis", "order"});
-  const std::vector<double> axis = part.numbers("axis", 3);
-  Symmetry symmetry;
-  symmetry.axis = Eigen::Vector3d(axis[0], axis[1], axis[2]);
-  if (symmetry.axis.norm() < 1e-9) part.fail("axis", "must have a length");
-  symmetry.axis.normalize();
-  if (part.text("order") == "inf") return symmetry;
-  const double order = part.number("order");
-  if (order < 2 || order > 1000 || order != std::floor(order)) {
-    part.fail("order", "must be a whole number from 2 to 1000, or inf for a body of revolution");
-  }
-  symmetry.order = int(order);
-  return symmetry;
 }
 
 /// Gives the ground truth the symmetries that the training entries declare.
@@ -248,21 +237,8 @@ void DataSetReader::warnAboutReference(const YamlMap& map, const GroundTruth& tr
 }
 
 Eigen::Isometry3d DataSetReader::readPose(const YamlMap& map) const {
-  const std::vector<double> values = map.numbers("pose", 16);
-  const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(values.data());
-  if ((matrix.row(3) - Eigen::RowVector4d(0, 0, 0, 1)).cwiseAbs().maxCoeff() > rigid_tolerance) {
-    map.fail("pose", "must end with 0, 0, 0, 1: 16 numbers, row-major, that map the reference into the scene");
-  }
-  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-  const double skew = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  if (skew > rigid_tolerance || rotation.determinant() < 0) {
-    map.fail("pose", "is not rigid: its upper left 3 x 3 numbers must be a rotation, without scale or mirroring");
-  }
-  // printed digits leave the rotation a little skew; inverting it as a rigid transform needs an exact one
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(rotation, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = svd.matrixU() * svd.matrixV().transpose();
-  pose.translation() = positionOf(map, "pose", matrix.topRightCorner<3, 1>());
+  Eigen::Isometry3d pose = readRigidMotion(map, "pose");
+  pose.translation() = positionOf(map, "pose", pose.translation());
   return pose;
 }
 

@@ -24,6 +24,9 @@ struct TrainingEntry {
   bool mesh = false;                 ///< the file is a mesh, or `builtin:` and a name: views of it are rendered
   std::optional<Symmetry> symmetry;  ///< as declared
   std::optional<double> scale;       ///< metres per unit of this file, where it differs; 0 of a mesh: recognised
+
+  std::optional<ObjectSymmetries> symmetries;  ///< all of them, where the file lists them [m]; for the BOP errors
+  std::optional<double> diameter;              ///< greatest distance between two vertices, where the file states it [m]
 };
 
 /// One true instance of an object in a scene.

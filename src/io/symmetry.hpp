@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
+#include <vector>
+
+#include <Eigen/Geometry>
 
 namespace sks {
 
@@ -9,6 +11,18 @@ namespace sks {
 struct Symmetry {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector, model frame
   int order = 0;                                    ///< rotations by 360 / order degrees; 0: any rotation
+};
+
+/// Every motion after which an object looks the same, in the model frame, as the BOP challenge lists them.
+struct ObjectSymmetries {
+  /// Of a body of revolution.
+  struct Axis {
+    Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< unit vector
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();    ///< the axis goes through it
+  };
+
+  std::vector<Eigen::Isometry3d> discrete;  ///< without the identity
+  std::vector<Axis> continuous;
 };
 
 }  // namespace sks

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include <sks_detector/simulation/mesh.hpp>
 #include <sks_detector/simulation/training_views.hpp>
 
 #include "io/dataset.hpp"
@@ -15,5 +16,9 @@ namespace sks {
 /// @param folder no file outside of it is read, whatever a mesh names; empty: no confinement
 MeshSampler meshSampler(const MeshTraining& training, std::function<void(const std::string&)> warn,
                         const std::string& folder = "");
+
+/// The mesh of a training entry: a file, or `builtin:` and a name. @param scale metres per unit, as for a MeshSampler
+/// @throws what findMesh() throws
+LoadedMesh entryMesh(const TrainingEntry& entry, double scale, const std::string& folder = "");
 
 }  // namespace sks

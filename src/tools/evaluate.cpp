@@ -13,6 +13,7 @@
 #include "tools/evaluation_plots.hpp"
 #include "tools/evaluation_table.hpp"
 #include "tools/method.hpp"
+#include "tools/object_models.hpp"
 #include "tools/progress_bar.hpp"
 
 namespace sks::tools {
@@ -50,7 +51,8 @@ void run(EvaluateOptions& options) {
     warn("object '" + object + "' of the ground truth was never trained: it counts as missed");
   }
   const DetectFunction detect = options.method.detectFunction(codebook, settings);
-  const Evaluation evaluation = evaluate(data_set, detect, options.method.name(), settings, bar.callback());
+  Evaluation evaluation = evaluate(data_set, detect, options.method.name(), settings, bar.callback());
+  scoreAsBop(evaluation, data_set, objectModels(data_set), threadCount(settings), bar.callback());
   bar.clear();
   nlohmann::json json = evaluationJson(evaluation);
   options.method.addSettings(json["settings"]);
@@ -66,7 +68,9 @@ void run(EvaluateOptions& options) {
 
 void addEvaluate(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
-      "evaluate", "trains unless given a codebook, detects in every scene of a data set and scores what was found");
+      "evaluate",
+      "trains unless given a codebook, detects in every scene of a data set and scores what was found, also "
+      "as the BOP challenge does where there are meshes");
   const auto options = std::make_shared<EvaluateOptions>();
   command->add_option("--dataset,-d", options->dataset, "data set file (YAML) with the ground truth")
       ->required()

@@ -93,6 +93,21 @@ json sceneJson(const SceneResult& scene, double threshold) {
   return result;
 }
 
+json bopJson(const BopRecall& recall) {
+  return {{"targets", recall.targets},
+          {"vsd", orNull(recall.vsd)},
+          {"mssd", orNull(recall.mssd)},
+          {"mspd", orNull(recall.mspd)},
+          {"ar", orNull(recall.ar)}};
+}
+
+/// Over all objects into `bop`, of each object into that of its own.
+void addBop(const BopScores& scores, json& result) {
+  result["bop"] = bopJson(scores.total);
+  result["bop"]["not_available"] = scores.shortcomings;
+  for (const auto& [object, recall] : scores.objects) result["per_object"][object]["bop"] = bopJson(recall);
+}
+
 /// What stands in the results of any evaluation, whoever detected.
 json commonJson(const Evaluation& evaluation) {
   json result = scoreJson(evaluation.total);
@@ -110,6 +125,7 @@ json commonJson(const Evaluation& evaluation) {
   }
   result["per_object"] = json::object();
   for (const auto& [object, score] : evaluation.objects) result["per_object"][object] = scoreJson(score);
+  if (evaluation.bop) addBop(*evaluation.bop, result);
   result["per_scene"] = json::array();
   for (const SceneResult& scene : evaluation.scenes) {
     result["per_scene"].push_back(sceneJson(scene, evaluation.threshold));

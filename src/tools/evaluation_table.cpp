@@ -2,6 +2,7 @@
 #include "tools/evaluation_table.hpp"
 
 #include <limits>
+#include <map>
 
 #include "tools/table.hpp"
 
@@ -40,6 +41,31 @@ std::string objectTable(const Evaluation& evaluation) {
   return table.text();
 }
 
+std::vector<std::string> bopRow(const std::string& name, const BopRecall& recall) {
+  return {name,
+          std::to_string(recall.targets),
+          number(recall.vsd, 3),
+          number(recall.mssd, 3),
+          number(recall.mspd, 3),
+          number(recall.ar, 3)};
+}
+
+/// Average recalls, and why some are missing: objects with the same reason in one line.
+std::string bopTable(const BopScores& scores) {
+  std::string text;
+  if (scores.total.vsd || scores.total.mssd || scores.total.mspd) {
+    Table table({"<object", "targets", "AR_VSD", "AR_MSSD", "AR_MSPD", "AR"});
+    for (const auto& [object, recall] : scores.objects) table.add(bopRow(object, recall));
+    table.add(bopRow("all", scores.total));
+    text = table.text();
+  }
+  std::map<std::string, std::string> objects;
+  for (const auto& [object, reason] : scores.shortcomings)
+    objects[reason] += (objects[reason].empty() ? "" : ", ") + object;
+  for (const auto& [reason, names] : objects) text += "BOP errors not available for " + names + ": " + reason + "\n";
+  return text.empty() ? text : "\n" + text;
+}
+
 std::vector<std::string> sweepRow(const CurvePoint& point, int decimals) {
   std::vector<std::string> row{fixed(point.threshold, decimals)};
   for (const std::string& cell : tallyCells(point.tally)) row.push_back(cell);
@@ -73,7 +99,8 @@ std::string recordedTable(const Evaluation& evaluation) {
   return evaluation.data_set + ", " + evaluation.method + ": " + std::to_string(evaluation.scenes.size()) +
          " scenes, threshold " + fixed(evaluation.threshold, 3) + ", within " +
          fixed(1000 * evaluation.max_distance, 0) + " mm; pose errors are medians\n\n" + objectTable(evaluation) +
-         "\n" + sweepTable(evaluation) + "\n" + timeTable(evaluation);
+         (evaluation.bop ? bopTable(*evaluation.bop) : "") + "\n" + sweepTable(evaluation) + "\n" +
+         timeTable(evaluation);
 }
 
 std::string evaluationTable(const Evaluation& evaluation) {

@@ -9,8 +9,8 @@
 
 #include <sks_detector/stages/point_grid.hpp>
 
-#include "core/surface/clusters.hpp"
 #include "core/settings/number_format.hpp"
+#include "core/surface/clusters.hpp"
 
 namespace sks {
 namespace {

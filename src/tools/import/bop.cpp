@@ -74,12 +74,15 @@ public:
 
 private:
   void addModels() {
-    const std::map<int, Symmetry> symmetries = readBopSymmetries(models_);
+    const std::map<int, BopModelInfo> infos = readBopModelInfo(models_);
     for (const fs::path& path : filesIn(models_, ".ply")) {
       TrainingEntry entry = trainingEntry(path.stem().string(), path, ViewKind::model);
       entry.mesh = true;
-      for (const auto& [object, symmetry] : symmetries) {
-        if (entry.object == nameOf(object)) entry.symmetry = symmetry;
+      for (const auto& [object, info] : infos) {
+        if (entry.object != nameOf(object)) continue;
+        entry.symmetry = info.symmetry;
+        entry.symmetries = info.symmetries;
+        entry.diameter = info.diameter;
       }
       Eigen::AlignedBox3f box;
       for (const Eigen::Vector3f& point : readCloud(entry.path).points) box.extend(point);

@@ -59,8 +59,16 @@ struct BopPictures {
 /// `rgb` have no colour.
 BopPictures findBopPictures(const std::filesystem::path& folder, int image);
 
-/// Symmetries of models_info.json by object; those about one axis alone. Empty where the file is not there.
-std::map<int, Symmetry> readBopSymmetries(const std::filesystem::path& models);
+/// What models_info.json says of an object.
+struct BopModelInfo {
+  std::optional<double> diameter;              ///< [mm]
+  std::optional<ObjectSymmetries> symmetries;  ///< all of them [mm]
+  std::optional<Symmetry> symmetry;            ///< where all are about one axis
+};
+
+/// The content of models_info.json by object; empty where the file is not there.
+/// @throws Error(bad_file), Error(bad_data) naming file, object and key
+std::map<int, BopModelInfo> readBopModelInfo(const std::filesystem::path& models);
 
 /// The organised cloud of an image in the camera's frame [mm], coloured where there is a colour picture; NaN where
 /// there is no depth. @throws Error(bad_file) naming the picture and what is wrong with it
