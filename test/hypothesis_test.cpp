@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/voting/hough_hypotheses.hpp"
 
+#include <cmath>
 #include <numeric>
 
 #include <gtest/gtest.h>
 
+#include "core/verification/hough_verifier.hpp"
 #include "synthetic.hpp"
 
 namespace {
@@ -89,6 +91,21 @@ TEST(Hypothesis, ComparesPairsWithinOneViewAndTakesTheViewWithMostInliers) {
   EXPECT_EQ(hypothesis.inliers.size(), 16u);
   EXPECT_LT((hypothesis.T_scene_model.matrix() - T2.matrix().cast<double>()).cwiseAbs().maxCoeff(), 1e-5);
   EXPECT_NEAR(hypothesis.density, 16, 1e-3);
+  EXPECT_NEAR(hypothesis.evidence, std::sqrt(16 * 10), 1e-3);  // ten of them speak for the pose
+}
+
+TEST(Hypothesis, OfASmallViewScoresMoreByTheSameVotes) {
+  sks::Codebook book = codebook();  // 30 codewords a view
+  for (int i = 0; i < 240; ++i) book.words.push_back(book.words.back());
+  const sks::HoughVerifier verifier(book);
+  sks::Settings settings;
+  settings.detection.half_density = 8;
+  sks::Hypothesis hypothesis;
+  hypothesis.evidence = 8;
+  hypothesis.view = 2;  // 270 codewords
+  EXPECT_DOUBLE_EQ(verifier.score(hypothesis, settings), 0.5);
+  hypothesis.view = 1;
+  EXPECT_NEAR(verifier.score(hypothesis, settings), 1 / (1 + std::pow(30 / 270.0, 0.6)), 1e-9);
 }
 
 TEST(Hypothesis, NeedsEnoughInliers) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/verification/score.hpp"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace {
@@ -11,6 +13,14 @@ double scoreOfDensity(double density, double half_density = 8) {
   sks::Settings settings;
   settings.detection.half_density = half_density;
   return sks::scoreOfDensity(hypothesis, settings);
+}
+
+double scoreOfVotes(double evidence, std::size_t words, double half_density = 8) {
+  sks::Hypothesis hypothesis;
+  hypothesis.evidence = evidence;
+  sks::Settings settings;
+  settings.detection.half_density = half_density;
+  return sks::scoreOfVotes(hypothesis, words, settings);
 }
 
 double scoreOfEvidence(double evidence, double half_evidence) {
@@ -42,4 +52,15 @@ TEST(Score, IsOneHalfAtTheHalfDensityAndEvidence) {
     EXPECT_DOUBLE_EQ(scoreOfDensity(half, half), 0.5);
     EXPECT_DOUBLE_EQ(scoreOfEvidence(half, half), 0.5);
   }
+}
+
+TEST(Score, OfVotesIsAShareOfWhatTheViewOffers) {
+  EXPECT_EQ(scoreOfVotes(0, 270), 0);
+  EXPECT_DOUBLE_EQ(scoreOfVotes(8, 270), 0.5);
+  EXPECT_DOUBLE_EQ(scoreOfVotes(24, 270), 0.75);
+  EXPECT_DOUBLE_EQ(scoreOfVotes(5, 270, 5), 0.5);
+  EXPECT_NEAR(scoreOfVotes(8 * std::pow(0.25, 0.6), 270 / 4 + 1, 8), 0.5, 0.002);  // a quarter: 3.5 votes
+  EXPECT_GT(scoreOfVotes(6, 50), scoreOfVotes(6, 300));
+  EXPECT_LT(scoreOfVotes(1000, 1), 1);
+  EXPECT_GT(scoreOfVotes(1, 0), 0);  // a codebook that was not made by training
 }

@@ -18,7 +18,7 @@ struct Detection {
   Eigen::Isometry3d T_scene_box = Eigen::Isometry3d::Identity();    ///< box centre, and axes
   Eigen::Vector3d box_size = Eigen::Vector3d::Zero();               ///< full extents along the box's axes [m]
   double density = 0;         ///< kernel sum of the inliers' votes at their maximum
-  double evidence = 0;        ///< for the pose, from votes and surface (docs/method.md); 0 where it was not verified
+  double evidence = 0;        ///< for the pose, from votes and surface or votes alone (docs/method.md)
   std::uint32_t votes = 0;    ///< votes at the maximum before RANSAC
   std::uint32_t inliers = 0;  ///< votes that agree on the pose
 

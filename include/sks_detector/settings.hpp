@@ -306,8 +306,9 @@ struct DetectionSettings {
     v(s.threshold, "threshold", Range{0, 1}, "",
       "lowest score of a detection that is reported; larger: fewer false detections, but more objects are missed");
     v(s.half_density, "half_density", Range{0.001, 10000}, "votes",
-      "density of the inliers' votes that gives the score 0.5; larger: all scores are lower. Only used where "
-      "hypotheses is hough");
+      "density of the inliers' votes that gives the score 0.5 to an object whose training view has 270 codewords; it "
+      "is "
+      "less for smaller ones. Larger: all scores are lower. Only used where hypotheses is hough");
     v(s.max_per_object, "max_per_object", Range{1, 1000}, "",
       "most detections of one object in one scene, the best ones; smaller: faster, but of many equal objects some are "
       "missed");

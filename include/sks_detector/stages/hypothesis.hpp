@@ -17,7 +17,7 @@ struct Hypothesis {
   Eigen::Vector3d box_size = Eigen::Vector3d::Zero();             ///< full extents [m]
   bool stands = false;                 ///< found without votes: something stands alone there, as the object would
   double density = 0;                  ///< of the inliers' votes at their maximum (eq. 3 without its constant)
-  double evidence = 0;                 ///< for the pose, of all that was seen of it; 0 where it was not verified
+  double evidence = 0;                 ///< for the pose: of all that was seen of it, or of its votes alone
   std::uint32_t votes = 0;             ///< votes at the maximum before RANSAC
   std::vector<std::uint32_t> inliers;  ///< indices of the votes that RANSAC did not remove
 };

@@ -69,7 +69,7 @@ Detector::Detector(std::shared_ptr<const Codebook> codebook, const Settings& set
       matcher_(std::make_shared<ObjectMatcher>(*codebook_)) {
   if (stages_.verifier) return;
   surface_verifier_ = std::make_shared<SurfaceVerifier>(codebook_);
-  hough_verifier_ = std::make_shared<HoughVerifier>();
+  hough_verifier_ = std::make_shared<HoughVerifier>(*codebook_);
 }
 
 Detector Detector::withSettings(const Settings& settings) const {

@@ -72,6 +72,15 @@ Eigen::Vector3d meanExtent(const Codebook& codebook, const std::vector<Vote>& vo
   return sum / double(members.size());
 }
 
+/// Of the votes of `members` at `position`.
+double densityAt(const Eigen::Vector3f& position, const std::vector<Vote>& votes,
+                 const std::vector<std::uint32_t>& members, double bandwidth) {
+  std::vector<Eigen::Vector3f> positions;
+  positions.reserve(members.size());
+  for (const std::uint32_t i : members) positions.push_back(votes[i].position);
+  return kernelDensity(position, positions, bandwidth);
+}
+
 }  // namespace
 
 bool estimateHypothesis(const Codebook& codebook, std::uint32_t object, const std::vector<Vote>& votes,
@@ -106,10 +115,10 @@ bool estimateHypothesis(const Codebook& codebook, std::uint32_t object, const st
   hypothesis.box_size = meanExtent(codebook, votes, best.votes);
   hypothesis.votes = std::uint32_t(maximum.votes.size());
   hypothesis.inliers = inliers;
-  std::vector<Eigen::Vector3f> positions;
-  positions.reserve(inliers.size());
-  for (const std::uint32_t i : inliers) positions.push_back(votes[i].position);
-  hypothesis.density = kernelDensity(maximum.position, positions, settings.voting.bandwidth);
+  const double bandwidth = settings.voting.bandwidth;
+  hypothesis.density = densityAt(maximum.position, votes, inliers, bandwidth);
+  // Votes of other frames point to the same place, but say nothing of this pose: they count by the root.
+  hypothesis.evidence = std::sqrt(hypothesis.density * densityAt(maximum.position, votes, best.votes, bandwidth));
   return true;
 }
 
