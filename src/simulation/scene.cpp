@@ -119,6 +119,7 @@ std::vector<double> visibilities(Renderer& renderer, const std::vector<Thing>& t
                                  const Eigen::Isometry3d& T_table_camera, const Rendering& view, std::size_t all) {
   CameraModel camera = options.camera;
   camera.noise = CameraNoise::none();
+  camera.color = {};
   const std::vector<std::size_t> seen = pixelCounts(view, things.size());
   std::vector<double> result(things.size(), 0);
   for (std::size_t i = 0; i < all; ++i) renderer.setVisible(i, false);
