@@ -21,12 +21,24 @@ constexpr float same_thing = 0.015f;       // recorded points beside a mesh, so 
 constexpr int rim = 2;                     // how far beside the mesh they are looked for [px]
 constexpr std::size_t least_colors = 200;  // pixels, to fit exposure and white balance
 
+/// The points that were measured, with their pixels.
+Cloud measuredOf(const Cloud& recording) {
+  Cloud measured;
+  measured.columns = recording.width;
+  for (std::size_t i = 0; i < recording.size(); ++i) {
+    if (!recording.points[i].allFinite()) continue;
+    measured.points.push_back(recording.points[i]);
+    measured.pixels.push_back(std::uint32_t(i));
+  }
+  return measured;
+}
+
 /// The camera of a recording with the errors of another one, whose lengths in pixels grow with the focal length.
 CameraModel cameraOf(const Cloud& recording, CameraModel camera, int threads) {
   if (!recording.organized()) {
     throw Error(ErrorCode::bad_data, "a twin needs an organised cloud: record depth pictures, not unordered points");
   }
-  const std::optional<Pinhole> pinhole = fitPinhole(recording, threads);
+  const std::optional<Pinhole> pinhole = fitPinhole(measuredOf(recording), threads);
   if (!pinhole) throw Error(ErrorCode::bad_data, "no pinhole camera sees the cloud's points at their pixels");
   const double ratio = pinhole->focal_x / camera.fx;
   camera.width = int(recording.width);
