@@ -43,7 +43,6 @@ CameraModel kinect() {
   CameraModel camera;
   camera.fx = camera.fy = 572;
   camera.noise = structuredLight();
-  camera.noise.edge_loss = 0.5;
   camera.color = anyLight();
   setNoise(camera.color, 1.5, 1.5, 1.5);
   return camera;

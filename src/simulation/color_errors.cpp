@@ -36,15 +36,11 @@ float encoded(float linear) {
   return 255 * (c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f);
 }
 
-/// A Gaussian blur along rows or columns; the image ends with its border repeated.
+/// A Gaussian blur along rows or columns, without what is black: there is nothing. The border is repeated.
 void blurAlong(std::vector<Eigen::Vector3f>& image, int width, int height, double sigma, bool rows, int threads) {
   const int radius = int(std::ceil(3 * sigma)), length = rows ? width : height, lines = rows ? height : width;
   std::vector<float> kernel;
-  float sum = 0;
-  for (int k = -radius; k <= radius; ++k) {
-    kernel.push_back(float(std::exp(-0.5 * k * k / (sigma * sigma))));
-    sum += kernel.back();
-  }
+  for (int k = -radius; k <= radius; ++k) kernel.push_back(float(std::exp(-0.5 * k * k / (sigma * sigma))));
   const int step = rows ? 1 : width;
 #pragma omp parallel for num_threads(threads)
   for (int line = 0; line < lines; ++line) {
@@ -52,9 +48,14 @@ void blurAlong(std::vector<Eigen::Vector3f>& image, int width, int height, doubl
     std::vector<Eigen::Vector3f> copy;
     for (int i = 0; i < length; ++i) copy.push_back(first[std::ptrdiff_t(i) * step]);
     for (int i = 0; i < length; ++i) {
+      if (copy[std::size_t(i)].isZero(0)) continue;
       Eigen::Vector3f mean = Eigen::Vector3f::Zero();
+      float sum = 0;
       for (int k = -radius; k <= radius; ++k) {
-        mean += kernel[std::size_t(k + radius)] * copy[std::size_t(std::clamp(i + k, 0, length - 1))];
+        const Eigen::Vector3f& other = copy[std::size_t(std::clamp(i + k, 0, length - 1))];
+        if (other.isZero(0)) continue;
+        mean += kernel[std::size_t(k + radius)] * other;
+        sum += kernel[std::size_t(k + radius)];
       }
       first[std::ptrdiff_t(i) * step] = mean / sum;
     }

@@ -46,6 +46,7 @@ std::string writeTwins(const std::string& data_set, const std::string& folder, c
                        const Progress& progress) {
   const DataSet original = loadDataSet(data_set);
   for (const std::string& warning : original.warnings) warn(warning);
+  makeFolder((fs::path(folder) / "scenes").string());
   std::string text = "# Twins: recorded scenes whose objects were replaced by their meshes.\nname: " +
                      yamlText(original.name + "_twins") +
                      "\nunits: m\nmax_distance: " + std::to_string(original.max_distance) + "\ntraining:\n";
@@ -59,7 +60,6 @@ std::string writeTwins(const std::string& data_set, const std::string& folder, c
     text += trainingYaml(entry.object, source, scale, entry.symmetry);
   }
   text += "scenes:\n";
-  makeFolder((fs::path(folder) / "scenes").string());
   for (std::size_t i = 0; i < original.scenes.size(); ++i) {
     Scene scene = original.scenes[i];
     report(progress, {"simulating", scene.name, i, original.scenes.size()});
