@@ -24,7 +24,7 @@ Mesh makeMarker() {
     if (label) return std::fmod(p.x() + 1, 0.012f) < 0.006f ? Rgb{20, 20, 20} : Rgb{250, 210, 50};
     return p.x() < -0.065f ? Rgb{200, 30, 40} : Rgb{240, 240, 240};
   };
-  Mesh marker = lengthwise(-0.075f, 0.03f, 0.006f, 0.006f, barrel);
+  Mesh marker = lengthwise(-0.075f, 0.03f, half, half, barrel);
   append(marker, lengthwise(0.025f, 0.075f, half, 0.0055f, plain({200, 30, 40})));
   return marker;
 }

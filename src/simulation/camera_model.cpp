@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sks_detector/simulation/camera_model.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include <sks_detector/error.hpp>
 
 namespace sks {
+
+bool ColorErrors::any() const {
+  const double all[] = {min_exposure, max_exposure, min_red,   max_red,     min_blue,   max_blue, light,
+                        vignetting,   blur,         noise_red, noise_green, noise_blue, offset};
+  return std::any_of(std::begin(all), std::end(all), [](double value) { return value != 0; });
+}
 
 double axialSigma(double depth, double angle) {
   constexpr double steep = EIGEN_PI / 3, right = EIGEN_PI / 2;
@@ -51,6 +59,25 @@ void validate(const CameraModel& camera) {
   within("lateral_sigma", camera.noise.lateral_sigma, 0, 1000, "pixels");
   check(camera.noise.grazing_from < camera.noise.grazing_to, "grazing_from", camera.noise.grazing_from,
         "less than grazing_to");
+  within("disparity_sigma", camera.noise.disparity_sigma, 0, 100, "pixels");
+  check(camera.baseline > 0 || camera.noise.disparity_sigma == 0, "baseline", camera.baseline,
+        "greater than 0 m for errors of the disparity");
+  within("correlation_x", camera.noise.correlation_x, 0, 100, "pixels");
+  within("correlation_y", camera.noise.correlation_y, 0, 100, "pixels");
+  within("depth_step", camera.noise.depth_step, 0, 1, "m");
+  within("edge_loss", camera.noise.edge_loss, 0, 100, "pixels");
+  const ColorErrors& color = camera.color;
+  for (const double stops :
+       {color.min_exposure, color.max_exposure, color.min_red, color.max_red, color.min_blue, color.max_blue}) {
+    within("exposure and white balance", stops, -10, 10, "stops");
+  }
+  within("light", color.light, 0, 1, "");
+  within("vignetting", color.vignetting, 0, 1, "");
+  within("blur", color.blur, 0, 100, "pixels");
+  for (const double sigma : {color.noise_red, color.noise_green, color.noise_blue}) {
+    within("colour noise", sigma, 0, 255, "levels");
+  }
+  within("offset of the colours", color.offset, 0, 100, "pixels");
 }
 
 }  // namespace sks

@@ -9,6 +9,8 @@
 
 #include <sks_detector/error.hpp>
 
+#include "simulation/color_errors.hpp"
+#include "simulation/depth_errors.hpp"
 #include "simulation/pixel_random.hpp"
 
 namespace sks {
@@ -23,8 +25,9 @@ struct Hit {
   bool found = false;
   float depth = 0;  // along z, for rays of z = 1
   unsigned instance = 0, triangle = 0;
-  float u = 0, v = 0;  // barycentric
-  float cosine = 1;    // of the angle between ray and normal
+  float u = 0, v = 0;                                 // barycentric
+  float cosine = 1;                                   // of the angle between ray and normal
+  Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();  // towards the camera, in the world
 };
 
 Eigen::Matrix<float, 3, 4> toEmbree(const Eigen::Isometry3d& transform) {
@@ -38,6 +41,7 @@ struct Renderer::Impl {
     std::size_t mesh;
     RTCGeometry geometry;
     Eigen::Matrix3f R_world_mesh;
+    double lost;
   };
 
   RTCDevice device = rtcNewDevice("threads=1");
@@ -58,6 +62,9 @@ struct Renderer::Impl {
 
   Hit cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const;
   bool blocked(const Eigen::Vector3f& from, const Eigen::Vector3f& to) const;
+  Rgb colorOf(const Hit& hit, const CameraModel& camera) const;
+  Eigen::Vector3f lightOf(const Hit& hit, const Eigen::Vector3f& point, const CameraModel& camera,
+                          const Eigen::Vector3f& to_light) const;
 };
 
 Hit Renderer::Impl::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const {
@@ -77,7 +84,9 @@ Hit Renderer::Impl::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& d
   hit.v = query.hit.v;
   const Eigen::Vector3f normal =
       instances[hit.instance].R_world_mesh * Eigen::Vector3f(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
-  hit.cosine = std::min(1.0f, std::abs(normal.normalized().dot(direction.normalized())));  // whichever side is seen
+  const float cosine = normal.normalized().dot(direction.normalized());
+  hit.cosine = std::min(1.0f, std::abs(cosine));  // whichever side is seen
+  hit.normal = (cosine > 0 ? -1.0f : 1.0f) * normal.normalized();
   return hit;
 }
 
@@ -115,14 +124,14 @@ std::size_t Renderer::addMesh(std::shared_ptr<const Mesh> mesh) {
   return impl_->meshes.size() - 1;
 }
 
-std::size_t Renderer::addInstance(std::size_t mesh, const Eigen::Isometry3d& T_world_mesh) {
+std::size_t Renderer::addInstance(std::size_t mesh, const Eigen::Isometry3d& T_world_mesh, double lost) {
   RTCGeometry geometry = rtcNewGeometry(impl_->device, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry, impl_->mesh_scenes[mesh]);
   const Eigen::Matrix<float, 3, 4> transform = toEmbree(T_world_mesh);
   rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(impl_->world, geometry, unsigned(impl_->instances.size()));
-  impl_->instances.push_back({mesh, geometry, transform.leftCols<3>()});
+  impl_->instances.push_back({mesh, geometry, transform.leftCols<3>(), lost});
   rtcCommitScene(impl_->world);
   return impl_->instances.size() - 1;
 }
@@ -143,31 +152,27 @@ void Renderer::setVisible(std::size_t instance, bool visible) {
 
 namespace {
 
-/// The depth that the sensor makes of a true one; NaN where it loses it. Always takes the same number of random
-/// numbers.
-double measuredDepth(const CameraModel& camera, const Hit& hit, PixelRandom& random) {
-  const CameraNoise& noise = camera.noise;
-  const double angle = std::acos(double(hit.cosine)), degrees = angle * 180 / EIGEN_PI;
-  const double luck = random.uniform(), error = random.normal().first;
-  if (noise.grazing && luck < (degrees - noise.grazing_from) / (noise.grazing_to - noise.grazing_from)) return nan;
-  double depth = hit.depth;
-  if (noise.axial) {
-    double variance = std::pow(axialSigma(depth, angle), 2);
-    if (noise.disparity) {  // the steps that come on top were in what the model was fitted to
-      const double step = depth * depth * noise.disparity_step / (camera.fx * camera.baseline);
-      variance = std::max(0.0, variance - step * step / 12);
-    }
-    depth += error * std::sqrt(variance);
-  }
-  return noise.disparity ? quantizeDepth(camera, depth) : depth;
-}
-
 Rgb shaded(const Rgb& color, float cosine) {
   const float light = 0.3f + 0.7f * cosine;
   return {std::uint8_t(light * color.r), std::uint8_t(light * color.g), std::uint8_t(light * color.b)};
 }
 
 }  // namespace
+
+Rgb Renderer::Impl::colorOf(const Hit& hit, const CameraModel& camera) const {
+  const Mesh& mesh = *meshes[instances[hit.instance].mesh];
+  const Rgb color = mesh.color(hit.triangle, hit.u, hit.v, hit.depth / float(camera.fx));
+  return camera.shading ? shaded(color, hit.cosine) : color;
+}
+
+Eigen::Vector3f Renderer::Impl::lightOf(const Hit& hit, const Eigen::Vector3f& point, const CameraModel& camera,
+                                        const Eigen::Vector3f& to_light) const {
+  constexpr float lamp = 1.5f;  // distance of what may stand in the light [m]
+  const auto share = float(camera.color.light);
+  const float slope = std::max(0.0f, hit.normal.dot(to_light));
+  const bool lit = share > 0 && slope > 0 && !blocked(point + lamp * to_light, point);
+  return (1 - share + (lit ? 1.5f * share * slope : 0)) * toLinear(colorOf(hit, camera));
+}
 
 Rendering Renderer::render(const CameraModel& camera, const Eigen::Isometry3d& T_world_camera, std::uint64_t frame,
                            int threads) const {
@@ -184,6 +189,11 @@ Rendering Renderer::render(const CameraModel& camera, const Eigen::Isometry3d& T
   const Eigen::Vector3f eye = T_world_camera.translation().cast<float>();
   const Eigen::Vector3f projector = (T_world_camera * Eigen::Vector3d(camera.baseline, 0, 0)).cast<float>();
   const CameraNoise& noise = camera.noise;
+  const DepthErrors errors(camera, frame, threads);
+  const ColorDraw draw(camera.color, noise.seed, frame);
+  const bool developed = camera.color.any();
+  std::vector<Eigen::Vector3f> light(developed ? pixels : 0, Eigen::Vector3f::Zero());
+  std::vector<float> true_depth(errors.needsEdges() ? pixels : 0, far);
 
 #pragma omp parallel for schedule(dynamic, 4) num_threads(threads)
   for (int row = 0; row < camera.height; ++row) {
@@ -192,25 +202,37 @@ Rendering Renderer::render(const CameraModel& camera, const Eigen::Isometry3d& T
       const Eigen::Vector3f ray = camera.ray(column, row);
       const Hit seen = impl_->cast(eye, R_world_camera * ray);
       if (seen.found) {
-        const Mesh& mesh = *impl_->meshes[impl_->instances[seen.instance].mesh];
-        const Rgb color = mesh.color(seen.triangle, seen.u, seen.v, seen.depth / float(camera.fx));
-        cloud.colors[pixel] = camera.shading ? shaded(color, seen.cosine) : color;
+        cloud.colors[pixel] = impl_->colorOf(seen, camera);
         result.instance[pixel] = std::int32_t(seen.instance);
+        if (!true_depth.empty()) true_depth[pixel] = seen.depth;
+      }
+      if (developed) {
+        const Eigen::Vector3f way = R_world_camera * camera.ray(column + draw.offset.x(), row + draw.offset.y());
+        const Hit colored = impl_->cast(eye, way);
+        if (colored.found) light[pixel] = impl_->lightOf(colored, eye + colored.depth * way, camera, draw.to_light);
       }
       PixelRandom random(noise.seed, frame, pixel);
-      const auto [aside, down] = random.normal();
+      const Eigen::Vector2d aside = errors.lateral(pixel, random);
       Hit hit = seen;
       Eigen::Vector3f direction = ray;
       if (noise.lateral) {
-        direction = camera.ray(column + noise.lateral_sigma * aside, row + noise.lateral_sigma * down);
-        hit = impl_->cast(eye, R_world_camera * direction);
+        const Eigen::Vector3f moved = camera.ray(column + aside.x(), row + aside.y());
+        const Hit beside = impl_->cast(eye, R_world_camera * moved);
+        if (!errors.smooth() || !seen.found || !beside.found || isEdge(seen.depth, beside.depth)) {
+          hit = beside;
+          direction = moved;
+        }
       }
       if (!hit.found) continue;
       if (noise.shadow && impl_->blocked(projector, eye + hit.depth * (R_world_camera * direction))) continue;
-      const float depth = float(measuredDepth(camera, hit, random));
+      const SeenSurface surface{hit.depth, hit.cosine, impl_->instances[hit.instance].lost,
+                                noise.dark ? impl_->colorOf(hit, camera) : Rgb{255, 255, 255}};
+      const auto depth = float(errors.measured(surface, pixel, random));
       if (depth >= float(camera.min_range) && depth <= float(camera.max_range)) cloud.points[pixel] = depth * ray;
     }
   }
+  if (errors.needsEdges()) errors.loseEdges(true_depth, cloud.points, threads);
+  if (developed) cloud.colors = developPicture(std::move(light), camera, draw, frame, threads);
   return result;
 }
 

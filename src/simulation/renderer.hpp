@@ -32,8 +32,9 @@ public:
 
   /// @return its number, for addInstance()
   std::size_t addMesh(std::shared_ptr<const Mesh> mesh);
-  /// Places a mesh in the world. @return number of the instance: Rendering::instance
-  std::size_t addInstance(std::size_t mesh, const Eigen::Isometry3d& T_world_mesh);
+  /// Places a mesh in the world. @param lost share of its surface that gives no depth, in patches, as glass and polish
+  /// do @return number of the instance: Rendering::instance
+  std::size_t addInstance(std::size_t mesh, const Eigen::Isometry3d& T_world_mesh, double lost = 0);
   std::size_t instanceCount() const;
   /// Hides an instance, or shows it again.
   void setVisible(std::size_t instance, bool visible);

@@ -8,16 +8,18 @@
 #include <sks_detector/error.hpp>
 #include <sks_detector/simulation/training_views.hpp>
 
+#include "simulation/distractors.hpp"
 #include "simulation/pixel_random.hpp"
+#include "simulation/scene_random.hpp"
 #include "simulation/shapes.hpp"
 #include "simulation/table_physics.hpp"
 
 namespace sks {
 namespace {
 
-constexpr double table_half = 0.6, table_thickness = 0.03;  // [m]
-constexpr std::uint64_t scene_stream = ~std::uint64_t(0);   // the pixels of the picture have the other streams
-constexpr int most_tries = 20;                              // to drop a thing so that it stays on the table
+constexpr double table_thickness = 0.03;                   // [m]
+constexpr std::uint64_t scene_stream = ~std::uint64_t(0);  // the pixels of the picture have the other streams
+constexpr int most_tries = 20;                             // to drop a thing so that it stays on the table
 
 /// Something to be dropped.
 struct Thing {
@@ -25,39 +27,11 @@ struct Thing {
   int model;  // -1: a distractor
 };
 
-double between(PixelRandom& random, double low, double high) {
-  return low + (high - low) * random.uniform();
-}
-
-std::size_t below(PixelRandom& random, std::size_t count) {
-  return std::min(count - 1, std::size_t(random.uniform() * double(count)));
-}
-
-Rgb anyColor(PixelRandom& random, double low, double high) {
-  const auto channel = [&] { return std::uint8_t(between(random, low, high)); };
-  const std::uint8_t r = channel(), g = channel();
-  return {r, g, channel()};
-}
-
 /// A rotation out of all with equal chances (Shoemake 1992).
 Eigen::Quaterniond anyRotation(PixelRandom& random) {
   const double u = random.uniform(), v = 2 * EIGEN_PI * random.uniform(), w = 2 * EIGEN_PI * random.uniform();
   return {std::sqrt(u) * std::cos(w), std::sqrt(1 - u) * std::sin(v), std::sqrt(1 - u) * std::cos(v),
           std::sqrt(u) * std::sin(w)};
-}
-
-Mesh makeDistractor(PixelRandom& random) {
-  const Paint paint = plain(anyColor(random, 20, 240));
-  const auto length = [&](double low, double high) { return float(between(random, low, high)); };
-  const std::size_t kind = below(random, 3);
-  if (kind == 0) {
-    const float a = length(0.03, 0.12), b = length(0.03, 0.12);
-    return makeBox({a, b, length(0.02, 0.1)}, paint, 0.02f);
-  }
-  if (kind == 1) return makeSphere(length(0.02, 0.045), 3, paint);
-  const float radius = length(0.015, 0.04), half = 0.5f * length(0.04, 0.16);
-  const auto path = subdivided<Eigen::Vector3f>({{0, 0, -half}, {0, 0, half}}, 0.02f);
-  return makeTube(path, std::vector<float>(path.size(), radius), 32, paint);
 }
 
 /// Which objects a scene holds: all different ones where there are enough of them.
@@ -75,8 +49,9 @@ std::vector<Thing> chooseThings(const std::vector<SceneModel>& models, const Sce
     deck.erase(card);
   }
   for (int i = 0; i < options.distractors; ++i) {
-    things.insert(things.begin() + std::ptrdiff_t(below(random, things.size() + 1)),
-                  {std::make_shared<const Mesh>(makeDistractor(random)), -1});
+    things.insert(
+        things.begin() + std::ptrdiff_t(below(random, things.size() + 1)),
+        {std::make_shared<const Mesh>(options.packages ? packageDistractor(random) : plainDistractor(random)), -1});
   }
   return things;
 }
@@ -113,8 +88,8 @@ Eigen::Isometry3d placeCamera(const SceneOptions& options, PixelRandom& random) 
 }
 
 /// Table, and perhaps a wall on the side that is far from the camera.
-void addRoom(Renderer& renderer, const Eigen::Isometry3d& T_table_camera, const SceneOptions& options,
-             PixelRandom& random) {
+void addPlainRoom(Renderer& renderer, const Eigen::Isometry3d& T_table_camera, const SceneOptions& options,
+                  PixelRandom& random) {
   const auto add = [&](const Eigen::Vector3f& size, const Rgb& color, const Eigen::Isometry3d& pose) {
     renderer.addInstance(renderer.addMesh(std::make_shared<const Mesh>(makeBox(size, plain(color)))), pose);
   };
@@ -144,6 +119,7 @@ std::vector<double> visibilities(Renderer& renderer, const std::vector<Thing>& t
                                  const Eigen::Isometry3d& T_table_camera, const Rendering& view, std::size_t all) {
   CameraModel camera = options.camera;
   camera.noise = CameraNoise::none();
+  camera.color = {};
   const std::vector<std::size_t> seen = pixelCounts(view, things.size());
   std::vector<double> result(things.size(), 0);
   for (std::size_t i = 0; i < all; ++i) renderer.setVisible(i, false);
@@ -193,7 +169,12 @@ SimulatedScene simulateScene(const std::vector<SceneModel>& models, const SceneO
     if (fresh) mesh->second = renderer.addMesh(things[i].mesh);
     renderer.addInstance(mesh->second, T_table_thing[i]);
   }
-  addRoom(renderer, scene.T_table_camera, options, random);
+  if (options.room == Room::plain) addPlainRoom(renderer, scene.T_table_camera, options, random);
+  if (options.room == Room::furnished) {
+    renderer.addInstance(renderer.addMesh(std::make_shared<const Mesh>(patternedTable(options.seed, number))),
+                         Eigen::Isometry3d::Identity());
+    furnish(renderer, scene.T_table_camera, options.seed, number);
+  }
   CameraModel camera = options.camera;
   camera.noise.seed = options.seed;
   scene.view = renderer.render(camera, scene.T_table_camera, number, options.threads);

@@ -12,6 +12,7 @@
 #include <sks_detector/simulation/mesh.hpp>
 
 #include "simulation/renderer.hpp"
+#include "simulation/room.hpp"
 
 namespace sks {
 
@@ -24,11 +25,13 @@ struct SceneModel {
 
 /// How scenes are made.
 struct SceneOptions {
-  int objects = 5;          ///< in a scene
-  bool repeated = false;    ///< an object may be there several times even where there are enough different ones
-  int distractors = 4;      ///< boxes, balls and cylinders that are no objects
+  int objects = 5;        ///< in a scene
+  bool repeated = false;  ///< an object may be there several times even where there are enough different ones
+  int distractors = 4;    ///< boxes, balls and cylinders that are no objects
+  bool packages = false;  ///< distractors are packages with prints instead
+  Room room = Room::plain;
   double region = 0.20;     ///< radius of the circle on the table over which things are dropped [m]
-  double wall_share = 0.5;  ///< of the scenes, a wall stands behind the table
+  double wall_share = 0.5;  ///< of the scenes with a plain room, a wall stands behind the table
   double min_distance = 0.7, max_distance = 1.3;  ///< of the camera from the middle of the table [m]
   double min_elevation = 25, max_elevation = 60;  ///< of the camera above the table [deg]
   std::uint64_t seed = 1;

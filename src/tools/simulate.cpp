@@ -4,6 +4,7 @@
 #include <memory>
 
 #include <sks_detector/error.hpp>
+#include <sks_detector/simulation/camera_presets.hpp>
 
 #include "core/settings/threads.hpp"
 #include "simulation/builtin_objects.hpp"
@@ -14,15 +15,18 @@
 #include "tools/mesh_options.hpp"
 #include "tools/progress_bar.hpp"
 #include "tools/simulated_set.hpp"
+#include "tools/twin_set.hpp"
 
 namespace sks::tools {
 namespace {
 
 struct SimulateOptions {
   std::string output;
+  std::string twin;  // data set file whose recordings are imitated; empty: none
   MeshOptions meshes;
   int scenes = 10;
   bool no_noise = false;
+  std::string camera = "basic", room = "plain";
   int least_points = 0;
   SceneOptions scene;
   ForceOption force;
@@ -31,16 +35,16 @@ struct SimulateOptions {
   double rate = 1;
   int repeat = 1;
 
-  std::unique_ptr<BagRecorder> bagRecorder() const;
+  std::unique_ptr<BagRecorder> bagRecorder(const CameraModel& camera_model) const;
 };
 
-std::unique_ptr<BagRecorder> SimulateOptions::bagRecorder() const {
+std::unique_ptr<BagRecorder> SimulateOptions::bagRecorder(const CameraModel& camera_model) const {
   if (bag_option->count() == 0) return nullptr;
   if (repeat < 1 || repeat > 100000) {
     throw Error(ErrorCode::bad_usage, "--repeat " + std::to_string(repeat) + " must be in [1, 100000]");
   }
   const std::string path = bag.empty() ? (std::filesystem::path(output) / "scenes.bag").string() : bag;
-  return std::make_unique<BagRecorder>(path, scene.camera, rate);
+  return std::make_unique<BagRecorder>(path, camera_model, rate);
 }
 
 std::vector<SceneModel> loadModels(const std::vector<TrainingEntry>& entries) {
@@ -53,7 +57,32 @@ std::vector<SceneModel> loadModels(const std::vector<TrainingEntry>& entries) {
   return models;
 }
 
+CameraModel cameraOf(const SimulateOptions& options) {
+  CameraModel camera = cameraPreset(options.camera);
+  if (options.no_noise) {
+    camera.noise = CameraNoise::none();
+    camera.color = {};
+  }
+  camera.noise.seed = options.scene.seed;
+  return camera;
+}
+
+void runTwin(const SimulateOptions& options) {
+  if (options.meshes.any() || options.bag_option->count() > 0) {
+    throw Error(ErrorCode::bad_usage,
+                "--twin takes objects and scenes from its data set: leave out --builtin, --mesh "
+                "and --bag");
+  }
+  options.force.checkFolder(options.output);
+  ProgressBar bar;
+  const std::string file =
+      writeTwins(options.twin, options.output, cameraOf(options), startableThreads(Settings()), bar.callback());
+  bar.clear();
+  print("twins: " + file + "\n");
+}
+
 void run(const SimulateOptions& options) {
+  if (!options.twin.empty()) return runTwin(options);
   if (!options.meshes.any()) {
     throw Error(ErrorCode::bad_usage, "there is nothing to simulate: give --builtin or --mesh NAME=FILE");
   }
@@ -65,13 +94,14 @@ void run(const SimulateOptions& options) {
   }
   SceneOptions scene = options.scene;
   scene.threads = startableThreads(Settings());
-  if (options.no_noise) scene.camera.noise = CameraNoise::none();
+  scene.camera = cameraOf(options);
+  scene.room = roomOf(options.room);
   validate(scene);
   const std::vector<TrainingEntry> entries = options.meshes.entries();
   const std::vector<SceneModel> models = loadModels(entries);
   options.force.checkFolder(options.output);
   SimulatedSet set(options.output, entries, models, std::size_t(options.least_points));
-  const std::unique_ptr<BagRecorder> bag = options.bagRecorder();
+  const std::unique_ptr<BagRecorder> bag = options.bagRecorder(scene.camera);
   ProgressBar bar;
   const Progress progress = bar.callback();
   const auto total = std::size_t(options.scenes);
@@ -113,6 +143,18 @@ void addSimulate(CLI::App& app) {
                       "of the camera from the middle of the table [m] (default: 0.7)");
   command->add_option("--max-distance", options->scene.max_distance, "... at most [m] (default: 1.3)");
   command->add_option("--seed", options->scene.seed, "same seed, same files (default: 1)")->type_name("S");
+  command->add_option("--camera", options->camera,
+                      "ideal, basic (independent errors in depth, true colours), kinect, xtion or realsense (errors in "
+                      "depth and colour as recorded) (default: basic)");
+  command->add_option("--room", options->room,
+                      "none, plain (a table, sometimes a wall) or furnished (floor, walls, furniture to 4 m) (default: "
+                      "plain)");
+  command
+      ->add_option("--twin", options->twin,
+                   "instead of tables: the recorded scenes of a data set, whose objects are replaced by their meshes")
+      ->type_name("FILE");
+  command->add_flag("--packages", options->scene.packages,
+                    "other things are cartons, cans, bottles and books with prints");
   command->add_flag("--no-noise", options->no_noise, "a camera without errors");
   command
       ->add_option("--min-points", options->least_points,

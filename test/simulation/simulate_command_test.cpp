@@ -130,6 +130,30 @@ TEST_F(SimulateCommand, GroupsOfBuiltInObjectsWithTheirNumberOfPoints) {
   EXPECT_GT(ignored, 0u);
 }
 
+TEST_F(SimulateCommand, TwinsOfADataSetHaveItsObjectsAndPoses) {
+  ASSERT_EQ(simulate("a").status, 0);
+  const test::CommandRun run = runSks(
+      {"simulate", "--output", folder_.path("b"), "--twin", folder_.path("a/dataset.yaml"), "--camera", "kinect"});
+  ASSERT_EQ(run.status, 0) << run.errors;
+  const DataSet recorded = loadDataSet(folder_.path("a/dataset.yaml")),
+                twins = loadDataSet(folder_.path("b/dataset.yaml"));
+  EXPECT_EQ(twins.name, "simulated_twins");
+  ASSERT_EQ(twins.scenes.size(), recorded.scenes.size());
+  ASSERT_EQ(twins.training.size(), 2u);
+  for (std::size_t i = 0; i < twins.scenes.size(); ++i) {
+    ASSERT_EQ(twins.scenes[i].objects.size(), recorded.scenes[i].objects.size());
+    for (std::size_t k = 0; k < twins.scenes[i].objects.size(); ++k) {
+      const GroundTruth &twin = twins.scenes[i].objects[k], &truth = recorded.scenes[i].objects[k];
+      EXPECT_EQ(twin.object, truth.object);
+      EXPECT_LT((twin.position - truth.position).norm(), 1e-6);
+      EXPECT_GT(double(twin.points.value_or(0)), 0.6 * double(*truth.points));
+    }
+  }
+  EXPECT_THAT(
+      runSks({"simulate", "--output", folder_.path("c"), "--builtin", "--twin", folder_.path("a/dataset.yaml")}).errors,
+      HasSubstr("--twin takes objects and scenes from its data set"));
+}
+
 TEST_F(SimulateCommand, DetectionsBecomeABopResultFile) {
   const std::vector<std::string> meshes{"--mesh", "obj_000001=builtin:mug", "--mesh", "obj_000002=builtin:duck"};
   std::vector<std::string> arguments{"simulate", "--output", folder_.path("a"), "--scenes", "1", "--objects", "2"};
@@ -182,6 +206,8 @@ TEST_F(SimulateCommand, RefusesWithTheReason) {
   EXPECT_THAT(refusal({"--builtin", "--scenes", "0"}), HasSubstr("--scenes 0 must be in"));
   EXPECT_THAT(refusal({"--builtin", "--min-points", "-1"}), HasSubstr("--min-points -1 must be 0 or more"));
   EXPECT_THAT(refusal({"--builtin", "tiny"}), HasSubstr("no group 'tiny' of built-in objects"));
+  EXPECT_THAT(refusal({"--builtin", "--camera", "kinekt"}), HasSubstr("there is no camera 'kinekt'"));
+  EXPECT_THAT(refusal({"--builtin", "--room", "kitchen"}), HasSubstr("there is no room 'kitchen'"));
 }
 
 }  // namespace
