@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/verification/turned_poses.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "synthetic.hpp"
@@ -23,15 +26,20 @@ TEST(TurnedPoses, HalfTurnsKeepTheBoxOfThreeEdges) {
   }
 }
 
-TEST(TurnedPoses, QuarterTurnsWhereTheBoxIsSquare) {
+TEST(TurnedPoses, AllAroundWhereTheBoxIsSquare) {
   const auto poses = turnedPoses(T_scene_book, book_center, {0.1, 0.1, 0.2});
-  ASSERT_EQ(poses.size(), 5u);  // half turns about x and y; a quarter, a half and three quarters about z
+  ASSERT_EQ(poses.size(), 13u);  // half turns about x and y; eleven of 30 to 330 degrees about z
   int quarters = 0;
   for (const Eigen::Isometry3d& T : poses) {
     quarters += std::abs(test::angleDegrees(T.linear(), T_scene_book.linear()) - 90) < 1e-4;
   }
   EXPECT_EQ(quarters, 2);
-  EXPECT_EQ(turnedPoses(T_scene_book, book_center, {0.1, 0.1, 0.1}).size(), 9u);
+  double least = 360;
+  for (const Eigen::Isometry3d& T : poses) {
+    least = std::min(least, test::angleDegrees(T.linear(), T_scene_book.linear()));
+  }
+  EXPECT_NEAR(least, 30, 1e-4);
+  EXPECT_EQ(turnedPoses(T_scene_book, book_center, {0.1, 0.1, 0.1}).size(), 33u);
 }
 
 }  // namespace
