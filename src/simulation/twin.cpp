@@ -16,10 +16,10 @@
 namespace sks {
 namespace {
 
-constexpr float in_front = 0.02f;          // a recorded point so much before a mesh hides it [m]
-constexpr float same_thing = 0.015f;       // recorded points beside a mesh, so near to its depth, are of the object [m]
-constexpr int rim = 2;                     // how far beside the mesh they are looked for [px]
-constexpr std::size_t least_colors = 200;  // pixels, to fit exposure and white balance
+constexpr float in_front = 0.02f;         // a recorded point so much before a mesh hides it [m]
+constexpr float same_thing = 0.015f;      // recorded points beside a mesh, so near to its depth, are of the object [m]
+constexpr int rim = 2;                    // how far beside the mesh they are looked for [px]
+constexpr std::size_t least_colors = 50;  // pixels, to fit exposure and white balance
 
 /// The points that were measured, with their pixels.
 Cloud measuredOf(const Cloud& recording) {
@@ -68,7 +68,7 @@ void fitColors(const Cloud& recording, const Rendering& exact, const std::vector
     if (!on_object[pixel] || !recording.points[pixel].allFinite()) continue;
     const Eigen::Vector3f seen = toLinear(recording.colors[pixel]), true_light = toLinear(exact.cloud.colors[pixel]);
     for (std::size_t c = 0; c < 3; ++c) {
-      constexpr float dark = 0.01f, bright = 0.95f;
+      constexpr float dark = 0.005f, bright = 0.95f;
       const float a = seen[Eigen::Index(c)], b = true_light[Eigen::Index(c)];
       if (a > dark && b > dark && a < bright && b < bright) stops[c].push_back(std::log2(double(a / b)));
     }
