@@ -53,7 +53,7 @@ std::size_t allocationsOf(Stage&& stage) {
   return allocations - before;
 }
 
-sks::Cloud objectImage() {
+sks::Cloud imageOfObject() {
   return sks::sanitize(
       sks::test::view({{sks::test::asymmetricShape(), sks::test::poseOf(35, {1, 2, 0.5f}, {0, 0, 0.8f})}}), {});
 }
@@ -61,7 +61,7 @@ sks::Cloud objectImage() {
 }  // namespace
 
 TEST(Allocations, NormalsNeedNone) {
-  const sks::Cloud cloud = objectImage();
+  const sks::Cloud cloud = imageOfObject();
   sks::Surface surface = sks::makeSurface(cloud, 0.01);
   EXPECT_EQ(allocationsOf([&] { sks::estimateNormals(surface, {}, sks::Orientation::sensor, 1); }), 0u);
   std::vector<Eigen::Vector3f> normals;
@@ -69,14 +69,14 @@ TEST(Allocations, NormalsNeedNone) {
 }
 
 TEST(Allocations, SelectionNeedsThoseOfItsResultOnly) {
-  const sks::Surface surface = sks::prepareSurface(objectImage(), {}, sks::Orientation::sensor, 1);
+  const sks::Surface surface = sks::prepareSurface(imageOfObject(), {}, sks::Orientation::sensor, 1);
   sks::Keypoints keypoints = sks::gridKeypoints(surface, 0.01);
   ASSERT_GT(keypoints.size(), 100u);
   EXPECT_EQ(allocationsOf([&] { sks::measureCurvature(surface, keypoints, {}, {}, 1); }), 0u);
 }
 
 TEST(Allocations, DescriptorsNeedThoseOfTheirResultOnly) {
-  const sks::Surface surface = sks::prepareSurface(objectImage(), {}, sks::Orientation::sensor, 1);
+  const sks::Surface surface = sks::prepareSurface(imageOfObject(), {}, sks::Orientation::sensor, 1);
   for (const double grid_size : {0.01, 0.03}) {
     const sks::Keypoints keypoints = sks::gridKeypoints(surface, grid_size);
     // Values and their shared owner, frames, indices: however many keypoints there are.
@@ -86,7 +86,7 @@ TEST(Allocations, DescriptorsNeedThoseOfTheirResultOnly) {
 }
 
 TEST(Allocations, MatchingNeedsThatOfItsResultOnly) {
-  const sks::Surface surface = sks::prepareSurface(objectImage(), {}, sks::Orientation::sensor, 1);
+  const sks::Surface surface = sks::prepareSurface(imageOfObject(), {}, sks::Orientation::sensor, 1);
   const auto describe = [&](double grid_size) {
     return sks::computeDescriptors(surface, sks::gridKeypoints(surface, grid_size), sks::DescriptorType::shot, {}, 1);
   };
@@ -103,7 +103,7 @@ TEST(Allocations, MatchingNeedsThatOfItsResultOnly) {
 
 TEST(Allocations, PosesNeedThoseOfTheirConfirmingPointsOnly) {
   const sks::Settings settings;
-  const sks::Cloud cloud = objectImage();
+  const sks::Cloud cloud = imageOfObject();
   const sks::Surface surface = sks::prepareSurface(cloud, settings.surface, sks::Orientation::sensor, 1);
   const sks::SceneView scene(surface, settings);
   const sks::Codebook codebook = sks::train({sks::test::sampleOf("thing", cloud)}, settings, "synthetic");

@@ -11,7 +11,7 @@
 
 namespace {
 
-using Points = std::vector<Eigen::Vector3f>;
+using GridPoints = std::vector<Eigen::Vector3f>;
 
 /// Indices into the original points, ascending.
 std::vector<std::uint32_t> neighbors(const sks::PointGrid& grid, const Eigen::Vector3f& center, float radius) {
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> neighbors(const sks::PointGrid& grid, const Eigen::Ve
   return found;
 }
 
-std::vector<std::uint32_t> bruteForce(const Points& points, const Eigen::Vector3f& center, float radius) {
+std::vector<std::uint32_t> bruteForce(const GridPoints& points, const Eigen::Vector3f& center, float radius) {
   std::vector<std::uint32_t> found;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const float dx = points[i].x() - center.x(), dy = points[i].y() - center.y(), dz = points[i].z() - center.z();
@@ -37,7 +37,7 @@ std::vector<std::uint32_t> bruteForce(const Points& points, const Eigen::Vector3
   return found;
 }
 
-void expectSameNeighbors(const Points& points, double cell, const Points& centers, float radius) {
+void expectSameNeighbors(const GridPoints& points, double cell, const GridPoints& centers, float radius) {
   const sks::PointGrid grid(points, cell);
   ASSERT_EQ(grid.size(), points.size());
   for (const auto& center : centers) {
@@ -56,8 +56,8 @@ struct PointGridCase {
 class PointGridNeighbors : public testing::TestWithParam<PointGridCase> {};
 
 TEST_P(PointGridNeighbors, EqualBruteForce) {
-  const Points points = sks::test::randomCloud(3000, 0.2f, 3).points;
-  Points centers = sks::test::randomCloud(60, 0.25f, 4).points;
+  const GridPoints points = sks::test::randomCloud(3000, 0.2f, 3).points;
+  GridPoints centers = sks::test::randomCloud(60, 0.25f, 4).points;
   centers.insert(centers.end(), points.begin(), points.begin() + 40);
   expectSameNeighbors(points, GetParam().cell, centers, GetParam().radius);
 }
@@ -69,7 +69,7 @@ INSTANTIATE_TEST_SUITE_P(CellsAndRadii, PointGridNeighbors,
                                          PointGridCase{0.0175, 0.0241f}));
 
 TEST(PointGrid, PointsAtTheRimAreNeighbors) {
-  Points points;
+  GridPoints points;
   for (int i = -8; i <= 8; ++i) {
     for (int k = -8; k <= 8; ++k) points.emplace_back(0.0f, float(i) * 0.125f, float(k) * 0.125f);
   }
@@ -80,27 +80,27 @@ TEST(PointGrid, PointsAtTheRimAreNeighbors) {
 }
 
 TEST(PointGrid, OutliersFarAwayLoseNothing) {
-  Points points = sks::test::randomCloud(2000, 0.1f, 5).points;
+  GridPoints points = sks::test::randomCloud(2000, 0.1f, 5).points;
   for (const Eigen::Vector3f& far :
        {Eigen::Vector3f(15, 15, 15), Eigen::Vector3f(-15, -15, 15), Eigen::Vector3f(0, 400, -400)}) {
     points.push_back(far);
   }
-  Points centers(points.end() - 30, points.end());
+  GridPoints centers(points.end() - 30, points.end());
   expectSameNeighbors(points, 0.001, centers, 0.05f);
   expectSameNeighbors(points, 0.001, {{1e6f, 0, 0}, {0, -1e6f, 0}, {0, 0, 1e6f}}, 0.05f);
 }
 
 TEST(PointGrid, OnePointAndNone) {
-  const Points one{{0.3f, -0.2f, 1.5f}};
+  const GridPoints one{{0.3f, -0.2f, 1.5f}};
   expectSameNeighbors(one, 0.01, {one[0], {0.3f, -0.2f, 1.51f}, {0, 0, 0}}, 0.02f);
-  const sks::PointGrid empty(Points{}, 0.01);
+  const sks::PointGrid empty(GridPoints{}, 0.01);
   EXPECT_EQ(empty.size(), 0u);
   EXPECT_TRUE(neighbors(empty, Eigen::Vector3f::Zero(), 1).empty());
   EXPECT_TRUE(neighbors(sks::PointGrid(), Eigen::Vector3f::Zero(), 1).empty());
 }
 
 TEST(PointGrid, IdenticalPointsAreAllFoundInTheirOrder) {
-  const Points same(50, Eigen::Vector3f(1, 2, 3));
+  const GridPoints same(50, Eigen::Vector3f(1, 2, 3));
   expectSameNeighbors(same, 0.01, {same[0]}, 0.001f);
   const sks::PointGrid grid(same, 0.01);
   for (std::uint32_t i = 0; i < 50; ++i) EXPECT_EQ(grid.source[i], i);
@@ -108,7 +108,7 @@ TEST(PointGrid, IdenticalPointsAreAllFoundInTheirOrder) {
 
 /// Places at which sizes, buckets or rows may overflow, or in which all points share one of them.
 TEST(PointGrid, StandsAnyPlacesForAnyNumberOfThreads) {
-  std::vector<Points> clouds(6);
+  std::vector<GridPoints> clouds(6);
   for (int i = 0; i < 3000; ++i) {
     clouds[0].emplace_back(float(i % 60) / 128, float(i / 60) / 128, 1.0f);              // dyadic
     clouds[1].emplace_back(0.0f, 0.0f, float(i * 7 % 3000) / 4096);                      // on a line, in no order
@@ -117,7 +117,7 @@ TEST(PointGrid, StandsAnyPlacesForAnyNumberOfThreads) {
     clouds[4].emplace_back(float(i % 50) - 25, float(i % 60) - 30, i < 9 ? 400.0f : 0);  // wide
     clouds[5].emplace_back(0.5f, -0.5f, 1.0f);                                           // one place
   }
-  for (const Points& points : clouds) {
+  for (const GridPoints& points : clouds) {
     for (const double cell : {1e-4, 0.01, 10.0}) {
       const sks::PointGrid one(points, cell, 1);
       ASSERT_EQ(one.size(), points.size());
@@ -132,7 +132,7 @@ TEST(PointGrid, StandsAnyPlacesForAnyNumberOfThreads) {
 }
 
 TEST(PointGrid, IsAPermutationPaddedWithInfinity) {
-  const Points points = sks::test::randomCloud(500, 0.2f, 6).points;
+  const GridPoints points = sks::test::randomCloud(500, 0.2f, 6).points;
   const sks::PointGrid grid(points, 0.02);
   std::vector<char> seen(points.size(), 0);
   for (std::size_t i = 0; i < grid.size(); ++i) {

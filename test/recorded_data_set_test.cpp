@@ -14,7 +14,7 @@
 namespace sks {
 namespace {
 
-Eigen::Vector3d boxCenter(const Cloud& cloud) {
+Eigen::Vector3d recordedBoxCenter(const Cloud& cloud) {
   Eigen::Vector3f low = Eigen::Vector3f::Constant(INFINITY), high = -low;
   for (const Eigen::Vector3f& point : cloud.points) {
     if (!point.allFinite()) continue;
@@ -40,7 +40,7 @@ TEST_P(RecordedDataSet, GroundTruthIsTheBoxCentreOfTheReferenceMappedByThePose) 
       ASSERT_EQ(paths.count(truth.reference), 1u) << truth.reference;
       if (!truth.T_scene_reference) continue;
       if (centers.count(truth.reference) == 0) {
-        centers[truth.reference] = boxCenter(readCloud(paths[truth.reference], data_set.scale));
+        centers[truth.reference] = recordedBoxCenter(readCloud(paths[truth.reference], data_set.scale));
       }
       EXPECT_LT((*truth.T_scene_reference * centers[truth.reference] - truth.position).norm(), 1e-4)
           << scene.name << ", " << truth.object;

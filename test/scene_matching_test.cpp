@@ -11,7 +11,7 @@ namespace {
 
 constexpr double max_distance = 0.05;
 
-GroundTruth truthAt(const std::string& object, double x) {
+GroundTruth objectAt(const std::string& object, double x) {
   GroundTruth truth;
   truth.object = object;
   truth.position = {x, 0, 1};
@@ -25,7 +25,7 @@ Scene sceneOf(const std::vector<GroundTruth>& objects) {
   return scene;
 }
 
-Detection detectionAt(const std::string& object, double x, double score) {
+Detection candidateAt(const std::string& object, double x, double score) {
   Detection detection;
   detection.object = object;
   detection.score = score;
@@ -43,9 +43,9 @@ constexpr Outcome hit = Outcome::true_positive;
 constexpr Outcome alarm = Outcome::false_positive;
 
 TEST(SceneMatching, OfTwoThatCompeteForOneTheHigherScoreWins) {
-  const Scene scene = sceneOf({truthAt("duck", 0)});
+  const Scene scene = sceneOf({objectAt("duck", 0)});
   const auto matched =
-      matchScene(scene, {detectionAt("duck", 0.001, 0.6), detectionAt("duck", 0.04, 0.9)}, max_distance);
+      matchScene(scene, {candidateAt("duck", 0.001, 0.6), candidateAt("duck", 0.04, 0.9)}, max_distance);
   EXPECT_EQ(outcomes(matched), (std::vector<Outcome>{hit, alarm}));
   EXPECT_EQ(matched[0].detection.score, 0.9);
   EXPECT_EQ(matched[0].ground_truth, 0u);
@@ -53,34 +53,34 @@ TEST(SceneMatching, OfTwoThatCompeteForOneTheHigherScoreWins) {
 }
 
 TEST(SceneMatching, TheSecondTakesTheNearestThatIsStillFree) {
-  const Scene scene = sceneOf({truthAt("duck", 0), truthAt("duck", 0.06)});
+  const Scene scene = sceneOf({objectAt("duck", 0), objectAt("duck", 0.06)});
   // both are nearest to the first instance; the weaker one is within reach of the second
-  const auto matched = matchScene(scene, {detectionAt("duck", 0.0, 0.9), detectionAt("duck", 0.02, 0.8)}, max_distance);
+  const auto matched = matchScene(scene, {candidateAt("duck", 0.0, 0.9), candidateAt("duck", 0.02, 0.8)}, max_distance);
   EXPECT_EQ(outcomes(matched), (std::vector<Outcome>{hit, hit}));
   EXPECT_EQ(matched[0].ground_truth, 0u);
   EXPECT_EQ(matched[1].ground_truth, 1u);
 }
 
 TEST(SceneMatching, ADetectionThatIsTooFarLeavesTheGroundTruthFree) {
-  const Scene scene = sceneOf({truthAt("duck", 0)});
+  const Scene scene = sceneOf({objectAt("duck", 0)});
   const auto matched =
-      matchScene(scene, {detectionAt("duck", 0.051, 0.9), detectionAt("duck", 0.05, 0.8)}, max_distance);
+      matchScene(scene, {candidateAt("duck", 0.051, 0.9), candidateAt("duck", 0.05, 0.8)}, max_distance);
   EXPECT_EQ(outcomes(matched), (std::vector<Outcome>{alarm, hit}));  // the limit itself is within
 }
 
 TEST(SceneMatching, FalsePositivesOfAbsentClassesCount) {
-  const Scene scene = sceneOf({truthAt("duck", 0)});
-  const auto matched = matchScene(scene, {detectionAt("frog", 0, 0.9), detectionAt("duck", 0, 0.5)}, max_distance);
+  const Scene scene = sceneOf({objectAt("duck", 0)});
+  const auto matched = matchScene(scene, {candidateAt("frog", 0, 0.9), candidateAt("duck", 0, 0.5)}, max_distance);
   EXPECT_EQ(outcomes(matched), (std::vector<Outcome>{alarm, hit}));
-  EXPECT_EQ(outcomes(matchScene(sceneOf({}), {detectionAt("duck", 0, 0.9)}, max_distance)),
+  EXPECT_EQ(outcomes(matchScene(sceneOf({}), {candidateAt("duck", 0, 0.9)}, max_distance)),
             (std::vector<Outcome>{alarm}));
 }
 
 TEST(SceneMatching, IgnoredObjectsCountNeitherWay) {
-  Scene scene = sceneOf({truthAt("duck", 0), truthAt("frog", 0.5)});
+  Scene scene = sceneOf({objectAt("duck", 0), objectAt("frog", 0.5)});
   scene.ignore = {"frog", "mario"};
   const auto matched = matchScene(
-      scene, {detectionAt("frog", 0.5, 0.9), detectionAt("mario", 0, 0.8), detectionAt("duck", 0, 0.7)}, max_distance);
+      scene, {candidateAt("frog", 0.5, 0.9), candidateAt("mario", 0, 0.8), candidateAt("duck", 0, 0.7)}, max_distance);
   EXPECT_EQ(outcomes(matched), (std::vector<Outcome>{Outcome::ignored, Outcome::ignored, hit}));
   EXPECT_FALSE(matched[0].ground_truth);
   EXPECT_TRUE(isIgnored(scene, "frog"));
@@ -88,10 +88,10 @@ TEST(SceneMatching, IgnoredObjectsCountNeitherWay) {
 }
 
 TEST(SceneMatching, WeakDetectionsDoNotChangeWhatBecomesOfStrongOnes) {
-  const Scene scene = sceneOf({truthAt("duck", 0), truthAt("duck", 0.06)});
-  std::vector<Detection> detections{detectionAt("duck", 0.03, 0.9), detectionAt("duck", 0.05, 0.6)};
+  const Scene scene = sceneOf({objectAt("duck", 0), objectAt("duck", 0.06)});
+  std::vector<Detection> detections{candidateAt("duck", 0.03, 0.9), candidateAt("duck", 0.05, 0.6)};
   const auto strong = matchScene(scene, detections, max_distance);
-  detections.push_back(detectionAt("duck", 0.0, 0.1));
+  detections.push_back(candidateAt("duck", 0.0, 0.1));
   const auto all = matchScene(scene, detections, max_distance);
   ASSERT_EQ(all.size(), 3u);
   for (std::size_t i = 0; i < strong.size(); ++i) {
@@ -101,9 +101,9 @@ TEST(SceneMatching, WeakDetectionsDoNotChangeWhatBecomesOfStrongOnes) {
 }
 
 TEST(SceneMatching, TheOrderOfEqualScoresDoesNotMatter) {
-  const Scene scene = sceneOf({truthAt("duck", 0), truthAt("duck", 0.08)});
-  std::vector<Detection> detections{detectionAt("duck", 0.07, 0.5), detectionAt("duck", 0.03, 0.5),
-                                    detectionAt("duck", -0.04, 0.5), detectionAt("frog", 0.0, 0.5)};
+  const Scene scene = sceneOf({objectAt("duck", 0), objectAt("duck", 0.08)});
+  std::vector<Detection> detections{candidateAt("duck", 0.07, 0.5), candidateAt("duck", 0.03, 0.5),
+                                    candidateAt("duck", -0.04, 0.5), candidateAt("frog", 0.0, 0.5)};
   const auto expected = matchScene(scene, detections, max_distance);
   std::vector<std::size_t> order{0, 1, 2, 3};
   do {
@@ -119,8 +119,8 @@ TEST(SceneMatching, TheOrderOfEqualScoresDoesNotMatter) {
 
 /// A duck whose true pose is known, and a detection with its pose turned by `degrees` about z through the box centre.
 struct PoseCase {
-  GroundTruth truth = truthAt("duck", 0.1);
-  Detection detection = detectionAt("duck", 0.1, 0.9);
+  GroundTruth truth = objectAt("duck", 0.1);
+  Detection detection = candidateAt("duck", 0.1, 0.9);
 
   explicit PoseCase(double degrees) {
     truth.reference = "views/duck0.pcd";

@@ -11,7 +11,7 @@ Eigen::Matrix3f frameOf(float degrees, const Eigen::Vector3f& axis) {
   return sks::test::poseOf(degrees, axis, Eigen::Vector3f::Zero()).linear();
 }
 
-sks::Codebook twoObjects() {
+sks::Codebook twoTargets() {
   sks::Codebook codebook;
   codebook.objects = {"mug", "box"};
   codebook.views.resize(3);
@@ -35,7 +35,7 @@ sks::Codebook twoObjects() {
 // Equations 1 and 2: for a scene that is the model moved by T, every correspondence votes for T times the box centre.
 // Trap 12: that is what the centre vector points to, however far the model's origin lies away.
 TEST(Voting, CorrespondencesOfAMovedModelVoteForItsBoxCenter) {
-  const sks::Codebook codebook = twoObjects();
+  const sks::Codebook codebook = twoTargets();
   for (const auto& T :
        {sks::test::poseOf(0, {0, 0, 1}, {0, 0, 0}), sks::test::poseOf(75, {1, -2, 0.5f}, {0.3f, -1, 2})}) {
     sks::Descriptors descriptors;
@@ -69,7 +69,7 @@ TEST(Voting, CorrespondencesOfAMovedModelVoteForItsBoxCenter) {
 
 // Trap 3: no rule drops votes, however far a match's distance or its vote lies from the others.
 TEST(Voting, KeepsTheVotesOfAllMatchesInTheirOrder) {
-  const sks::Codebook codebook = twoObjects();
+  const sks::Codebook codebook = twoTargets();
   sks::Descriptors descriptors;
   sks::Keypoints keypoints;
   std::vector<sks::Match> matches;
@@ -87,7 +87,7 @@ TEST(Voting, KeepsTheVotesOfAllMatchesInTheirOrder) {
 }
 
 TEST(Voting, WithoutMatchesEverySpaceIsEmpty) {
-  const auto spaces = sks::castVotes(twoObjects(), {}, {}, {});
+  const auto spaces = sks::castVotes(twoTargets(), {}, {}, {});
   ASSERT_EQ(spaces.size(), 2u);
   EXPECT_TRUE(spaces[0].empty() && spaces[1].empty());
 }

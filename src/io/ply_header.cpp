@@ -11,7 +11,7 @@
 namespace sks {
 namespace {
 
-using Words = std::vector<std::string>;
+using PlyWords = std::vector<std::string>;
 
 [[noreturn]] void badPlyHeader(const std::string& message) {
   throw Error(ErrorCode::bad_data, "its PLY header " + message);
@@ -31,19 +31,19 @@ PointField::Type typeOf(const std::string& name) {
 }
 
 PlyFormat formatOf(const std::string& name) {
-  const Words names = {"ascii", "binary_little_endian", "binary_big_endian"};
+  const PlyWords names = {"ascii", "binary_little_endian", "binary_big_endian"};
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end()) badPlyHeader("has the unknown format '" + shown(name) + "'");
   return PlyFormat(found - names.begin());
 }
 
-PlyProperty propertyOf(const Words& words) {
+PlyProperty propertyOf(const PlyWords& words) {
   if (words.size() == 3) return {words[2], typeOf(words[1])};
   if (words.size() == 5 && words[1] == "list") return {words[4], typeOf(words[3]), true, typeOf(words[2])};
   badPlyHeader("has a property without a type or name");
 }
 
-std::string joined(Words::const_iterator word, Words::const_iterator end) {
+std::string joined(PlyWords::const_iterator word, PlyWords::const_iterator end) {
   std::string text;
   for (; word != end; ++word) text += (text.empty() ? "" : " ") + *word;
   return text;
@@ -55,7 +55,7 @@ PlyHeader readPlyHeader(std::istream& file) {
   PlyHeader header;
   bool has_format = false;
   HeaderLines lines(file);
-  for (Words words; words.empty() || words[0] != "end_header";) {
+  for (PlyWords words; words.empty() || words[0] != "end_header";) {
     if (!lines.next(words)) badPlyHeader("has no line end_header");
     const std::string keyword = words.empty() ? "" : words[0];
     if (keyword == "format" && words.size() > 1) {

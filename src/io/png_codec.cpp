@@ -42,16 +42,16 @@ void complain(png_structp png, png_const_charp message) {
 void ignore(png_structp, png_const_charp) {}
 
 template <typename Pixel>
-class Reader {
+class PngReader {
 public:
-  explicit Reader(const std::string& bytes)
+  explicit PngReader(const std::string& bytes)
       : png_(png_create_read_struct(PNG_LIBPNG_VER_STRING, &stream_, complain, ignore)),
         info_(png_ != nullptr ? png_create_info_struct(png_) : nullptr) {
     stream_.input = &bytes;
   }
-  ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
+  ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngReader(const PngReader&) = delete;
+  PngReader& operator=(const PngReader&) = delete;
 
   Image<Pixel> read() {
     if (info_ == nullptr) throw CodecError("libpng cannot be used");
@@ -92,7 +92,7 @@ private:
 
 /// As 8-bit RGB.
 template <>
-void Reader<Rgb>::demand() {
+void PngReader<Rgb>::demand() {
   png_set_strip_16(png_);
   png_set_strip_alpha(png_);
   png_set_palette_to_rgb(png_);
@@ -101,7 +101,7 @@ void Reader<Rgb>::demand() {
 }
 
 template <>
-void Reader<std::uint16_t>::demand() {
+void PngReader<std::uint16_t>::demand() {
   if (png_get_bit_depth(png_, info_) != 16 || png_get_color_type(png_, info_) != PNG_COLOR_TYPE_GRAY) {
     throw CodecError("a depth image must have one channel of 16 bits");
   }
@@ -149,11 +149,11 @@ void checkImageSize(std::uint64_t width, std::uint64_t height, std::size_t bytes
 }
 
 ColorImage decodeColorPng(const std::string& bytes) {
-  return Reader<Rgb>(bytes).read();
+  return PngReader<Rgb>(bytes).read();
 }
 
 DepthImage decodeDepthPng(const std::string& bytes) {
-  return Reader<std::uint16_t>(bytes).read();
+  return PngReader<std::uint16_t>(bytes).read();
 }
 
 std::string encodePng(const ColorImage& image) {

@@ -15,7 +15,7 @@
 namespace sks_detector {
 namespace {
 
-constexpr double poll_time = 0.1;  // [s] longest time until a request is noticed
+constexpr double signal_poll_time = 0.1;  // [s] longest time until a request is noticed
 
 // From the request; roslaunch sends SIGTERM 15 s after SIGINT, and kills 2 s later.
 constexpr std::chrono::seconds until_shutdown(5), until_exit(12);
@@ -35,7 +35,7 @@ void requestByName(XmlRpc::XmlRpcValue&, XmlRpc::XmlRpcValue& result) {
 /// Ends what does not end by itself, nor starts, as roscpp waits for a master that is away. Runs until the process has
 /// ended.
 void watchTheEnd() {
-  while (!requested) std::this_thread::sleep_for(std::chrono::duration<double>(poll_time));
+  while (!requested) std::this_thread::sleep_for(std::chrono::duration<double>(signal_poll_time));
   std::this_thread::sleep_for(until_shutdown);
   std::thread(ros::shutdown).detach();  // it may wait for others
   std::this_thread::sleep_for(until_exit - until_shutdown);
@@ -54,7 +54,7 @@ void handleTermination() {
 }
 
 void spinUntilTermination() {
-  while (!requested && ros::ok()) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(poll_time));
+  while (!requested && ros::ok()) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(signal_poll_time));
 }
 
 }  // namespace sks_detector

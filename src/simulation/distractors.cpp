@@ -11,10 +11,10 @@ namespace sks {
 namespace {
 
 constexpr float print_step = 0.003f;  // between vertices, which carry the colours [m]
-constexpr int around = 72;            // segments
+constexpr int segments_around = 72;   // segments
 
 Mesh turned(const std::vector<Eigen::Vector2f>& profile, const Paint& paint) {
-  return makeRevolution(subdivided<Eigen::Vector2f>(profile, print_step), around, paint);
+  return makeRevolution(subdivided<Eigen::Vector2f>(profile, print_step), segments_around, paint);
 }
 
 }  // namespace

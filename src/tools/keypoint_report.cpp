@@ -18,7 +18,7 @@ using nlohmann::json;
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-json orNull(const std::optional<double>& value) {
+json jsonOrNull(const std::optional<double>& value) {
   return value ? json(*value) : json();
 }
 
@@ -65,13 +65,13 @@ json pairJson(const StudiedPair& pair) {
           {"correspondences", pair.pair.correspondences},
           {"inliers", pair.pair.inliers},
           {"c_rk", pair.pair.correctFraction()},
-          {"t_diff", orNull(pair.t_diff)},
+          {"t_diff", jsonOrNull(pair.t_diff)},
           {"pose", pair.pair.T_scene_object ? poseJson(*pair.pair.T_scene_object) : json()}};
 }
 
 json kindJson(const KeypointStudy& study, const StudiedKeypoints& kind) {
   json result{{"c_rk", {{"mean", meanFraction(kind)}, {"ranked", fractions(kind)}}},
-              {"t_diff", {{"median", orNull(percentile(differences(kind), 0.5))}, {"ranked", differences(kind)}}},
+              {"t_diff", {{"median", jsonOrNull(percentile(differences(kind), 0.5))}, {"ranked", differences(kind)}}},
               {"object_keypoints", {{"mean", meanObjectKeypoints(kind)}}},
               {"scene_keypoints", {{"mean", meanSceneKeypoints(kind)}}},
               {"time_ms", {{"mean", 1000 * kind.meanTime()}}},
@@ -81,7 +81,7 @@ json kindJson(const KeypointStudy& study, const StudiedKeypoints& kind) {
   return result;
 }
 
-std::string number(double value) {
+std::string csvNumber(double value) {
   return formatted("%.6g", value);
 }
 
@@ -118,8 +118,8 @@ std::string keypointCsv(const KeypointStudy& study) {
   for (const StudiedKeypoints& kind : study.kinds) {
     const std::vector<double> c_rk = fractions(kind), t_diff = differences(kind);
     for (std::size_t i = 0; i < c_rk.size(); ++i) {
-      text += kind.name + "," + std::to_string(i + 1) + "," + number(c_rk[i]) + "," +
-              (i < t_diff.size() ? number(t_diff[i]) : "") + "\n";
+      text += kind.name + "," + std::to_string(i + 1) + "," + csvNumber(c_rk[i]) + "," +
+              (i < t_diff.size() ? csvNumber(t_diff[i]) : "") + "\n";
     }
   }
   return text;

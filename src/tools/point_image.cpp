@@ -10,7 +10,7 @@
 namespace sks::tools {
 namespace {
 
-constexpr float nothing = std::numeric_limits<float>::infinity();
+constexpr float no_depth = std::numeric_limits<float>::infinity();
 constexpr Rgb background{30, 34, 40};
 
 /// Depth [m] and index of the nearest point at each pixel.
@@ -50,7 +50,7 @@ int squareSize(const std::vector<Projection>& projections, PictureSize size) {
 }
 
 Buffer splat(const std::vector<Projection>& projections, PictureSize size) {
-  Buffer buffer{{size.width, size.height, nothing}, {size.width, size.height, -1}};
+  Buffer buffer{{size.width, size.height, no_depth}, {size.width, size.height, -1}};
   const int side = squareSize(projections, size);
   for (const Projection& p : projections) {
     const int left = int(std::lround(p.pixel.x() - 0.5 * side)), top = int(std::lround(p.pixel.y() - 0.5 * side));
@@ -81,7 +81,7 @@ void closeGaps(Buffer& buffer) {
         buffer.index(row, column) = before.index(r, c);
       }
       if (filled < 5) {
-        buffer.depth(row, column) = nothing;
+        buffer.depth(row, column) = no_depth;
         buffer.index(row, column) = -1;
       }
     }
@@ -141,7 +141,7 @@ ColorImage renderPoints(const Cloud& cloud, const ViewCamera& camera, PictureSiz
 
   std::vector<float> depths;
   for (const float depth : buffer.depth.pixels) {
-    if (depth < nothing) depths.push_back(depth);
+    if (depth < no_depth) depths.push_back(depth);
   }
   std::sort(depths.begin(), depths.end());
   const float near = depths.empty() ? 0 : depths[depths.size() / 50],
@@ -157,7 +157,7 @@ ColorImage renderPoints(const Cloud& cloud, const ViewCamera& camera, PictureSiz
         image(row, column) = cloud.colors[std::size_t(index)];
       } else {
         const float share = std::clamp((buffer.depth(row, column) - near) / std::max(far - near, 1e-6f), 0.0f, 1.0f);
-        const bool known = smooth(row, column) < nothing;
+        const bool known = smooth(row, column) < no_depth;
         image(row, column) = shade(share, known ? inclination(smooth, camera, row, column) : 0.5f);
       }
     }

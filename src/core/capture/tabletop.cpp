@@ -19,7 +19,7 @@ constexpr double patch_gap = 0.05;         // what is farther apart is no one pl
 constexpr double cluster_spacing = 0.005;  // of the points that are clustered [m]
 constexpr double contact = 0.02;           // lowest points of objects that stand on a plane, above its noise [m]
 constexpr float inner_border = 0.02f;      // things that do not reach so far over the plane are what bounds it [m]
-constexpr int most_planes = 4;
+constexpr int most_tried_planes = 4;
 constexpr double least_share = 0.25;  // of the largest plane's area
 
 /// What rises above a patch.
@@ -119,7 +119,7 @@ Tabletop findTabletop(const Cloud& cloud, const TabletopSettings& settings) {
   const Indices measured = measuredPoints(cloud);
   std::vector<Eigen::Vector3f> thinned = groupByVoxel(at(cloud.points, measured), patch_spacing).centroids;
   Tabletop best;
-  for (int i = 0; i < most_planes; ++i) {
+  for (int i = 0; i < most_tried_planes; ++i) {
     const PlanePatch patch = largestPatch(thinned, settings.plane_tolerance, patch_gap, cloud.sensor_origin);
     if (patch.points.size() < 3) break;
     const Stage stage(patch, settings);

@@ -11,7 +11,7 @@ namespace sks {
 namespace {
 
 constexpr double max_deviation = 0.5;  // [pixel]
-constexpr std::size_t sample_size = 2000;
+constexpr std::size_t pinhole_sample = 2000;
 
 /// Line y = slope * x + offset through points, by least squares.
 class LineFit {
@@ -40,7 +40,7 @@ std::optional<Pinhole> fitPinhole(const Cloud& cloud, int threads) {
   const std::size_t n = cloud.pixels.size();
   if (n == 0 || n != cloud.size()) return std::nullopt;
   LineFit columns, rows;
-  for (std::size_t i = 0; i < n; i += std::max<std::size_t>(1, n / sample_size)) {
+  for (std::size_t i = 0; i < n; i += std::max<std::size_t>(1, n / pinhole_sample)) {
     const Eigen::Vector3f& p = cloud.points[i];
     const std::uint32_t row = cloud.pixels[i] / cloud.columns;
     columns.add(p.x() / p.z(), cloud.pixels[i] % cloud.columns);

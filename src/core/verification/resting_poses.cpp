@@ -15,10 +15,10 @@ constexpr float first_step = 0.1f, last_step = 0.005f;  // [rad]
 constexpr int fewest_falls = 2;                         // into a pose: else it is a dent of the samples
 constexpr float together = 0.94f;                       // cosine of 20 degrees: what is nearer is one pose
 constexpr std::size_t most_poses = 12;
-constexpr int most_alike = 6;              // of the same height, as a can has when it rolls
-constexpr float alike = 0.03f;             // of the height
-constexpr float contact = 0.005f;          // [m] points so near to the plane touch it
-constexpr float contact_agreement = 0.9f;  // cosine between their normals and the plane's
+constexpr int most_alike = 6;               // of the same height, as a can has when it rolls
+constexpr float alike = 0.03f;              // of the height
+constexpr float touching = 0.005f;          // [m] points so near to the plane touch it
+constexpr float touching_agreement = 0.9f;  // cosine between their normals and the plane's
 
 /// Directions that cover the sphere evenly: a spiral.
 std::vector<Eigen::Vector3f> evenDirections(int count) {
@@ -63,7 +63,8 @@ Eigen::Vector3f settled(const ModelSurface& model, const Eigen::Vector3f& down) 
   const float floor = down.dot(farthest(model.points, down));
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   for (std::size_t i = 0; i < model.points.size(); ++i) {
-    const bool touches = down.dot(model.points[i]) > floor - contact && down.dot(model.normals[i]) > contact_agreement;
+    const bool touches =
+        down.dot(model.points[i]) > floor - touching && down.dot(model.normals[i]) > touching_agreement;
     if (touches) sum += model.normals[i];
   }
   return sum.norm() > 0 ? Eigen::Vector3f(sum.normalized()) : down;
@@ -76,7 +77,7 @@ bool isSupported(const ModelSurface& model, const Eigen::Vector3f& down, const E
   const Eigen::Vector3f u = down.unitOrthogonal(), v = down.cross(u);
   std::vector<float> angles;
   for (const Eigen::Vector3f& p : model.points) {
-    if (down.dot(p) > floor - contact) angles.push_back(std::atan2(v.dot(p - center), u.dot(p - center)));
+    if (down.dot(p) > floor - touching) angles.push_back(std::atan2(v.dot(p - center), u.dot(p - center)));
   }
   std::sort(angles.begin(), angles.end());
   float widest_gap = angles.front() + float(2 * EIGEN_PI) - angles.back();

@@ -7,7 +7,7 @@
 namespace sks {
 namespace {
 
-constexpr double steepness = 8;  // of the logistic function, fitted to simulated clutter (docs/accuracy.md)
+constexpr double score_steepness = 8;  // of the logistic function, fitted to simulated clutter (docs/accuracy.md)
 
 // A view of n codewords is found with about n^0.6 votes (docs/method.md): `detection.half_density` is that of 270.
 constexpr double usual_words = 270, words_power = 0.6;
@@ -24,7 +24,7 @@ double scoreOfVotes(const Hypothesis& hypothesis, std::size_t words, const Setti
 }
 
 double scoreOfEvidence(const Hypothesis& hypothesis, const Settings& settings) {
-  const double power = std::pow(hypothesis.evidence / settings.verification.half_evidence, steepness);
+  const double power = std::pow(hypothesis.evidence / settings.verification.half_evidence, score_steepness);
   return power / (power + 1);
 }
 

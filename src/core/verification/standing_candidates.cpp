@@ -12,8 +12,8 @@ constexpr float size_tolerance = 0.01f;   // [m] of what is measured of a thing
 constexpr float least_seen = 0.4f;        // of an object's length
 constexpr int yaws = 12;                  // rotations about the upright axis; the nearest one is at most 15 degrees off
 constexpr std::size_t most_points = 200;  // of a model, to estimate what is seen of it
-constexpr int fewest_supported = 6;       // points
-constexpr double prior_weight = 0.2;      // as of votes
+constexpr int fewest_confirmed = 6;       // points
+constexpr double prior_of_check = 0.2;    // as of votes
 
 /// An object in one of its resting poses.
 struct RestingModel {
@@ -108,8 +108,8 @@ std::vector<PoseCandidate> standingCandidates(const VerifiedModels& models, cons
         candidate.view = nearestView(codebook, *model.surface, scene.surface.sensor_origin, candidate.T_scene_model);
         const RoughSupport support = roughSupport(codebook.views[candidate.view], models.weights[candidate.view], scene,
                                                   candidate.T_scene_model);
-        if (support.points < fewest_supported) continue;
-        candidate.pre_score = support.supported / (support.visible + prior_weight) * std::sqrt(support.supported);
+        if (support.points < fewest_confirmed) continue;
+        candidate.pre_score = support.supported / (support.visible + prior_of_check) * std::sqrt(support.supported);
         if (candidate.pre_score > best.pre_score) best = candidate;
       }
       best.stands = true;
