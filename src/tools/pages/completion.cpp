@@ -84,7 +84,7 @@ _sks() {
     _sks_value "$kind" "$current" "$1"
     return 0
   fi
-  if [[ $previous == -* && -n ${_sks_kinds[$command $previous]-} ]]; then
+  if [[ $current != -* && $previous == -* && -n ${_sks_kinds[$command $previous]-} ]]; then
     _sks_value "${_sks_kinds[$command $previous]}" "$current" "$1"
     return 0
   fi
