@@ -40,11 +40,11 @@ TEST(StandingThings, MeasuresWhatStandsOnATable) {
   ASSERT_EQ(standing.things.size(), 1u);
   const StandingThing& thing = standing.things[0];
   EXPECT_NEAR(thing.height, 0.03, 0.004);  // the highest of points with noise
-  EXPECT_NEAR(thing.length, 0.1, 0.012);
-  EXPECT_LE(thing.width, 0.062f);
+  EXPECT_NEAR(thing.base.length, 0.1, 0.012);
+  EXPECT_LE(thing.base.width, 0.062f);
   const Eigen::Vector3f up = test::poseOf(140, {1, 0, 0}, Eigen::Vector3f::Zero()) * Eigen::Vector3f::UnitZ();
-  EXPECT_GT(thing.up.dot(up), 0.9998f);                                       // 1 degree
-  EXPECT_GT(std::abs(thing.long_axis.dot(Eigen::Vector3f::UnitX())), 0.97f);  // 14 degrees
+  EXPECT_GT(thing.up.dot(up), 0.9998f);                                            // 1 degree
+  EXPECT_GT(std::abs(thing.base.long_axis.dot(Eigen::Vector3f::UnitX())), 0.97f);  // 14 degrees
 }
 
 TEST(StandingThings, ThingsOfSixMillimetresRise) {

@@ -173,6 +173,20 @@ TEST(Trainer, UnusableCloudsAreNamedBySource) {
   EXPECT_THAT(sparse, HasSubstr("descriptor.radius (0.05 m)"));
 }
 
+TEST(Trainer, ViewsOfAMeshAlongAThinPartAreLeftOut) {
+  sks::TrainingSample side = sampleOf("stick", asymmetric(false), ViewKind::model, "stick.ply");
+  sks::TrainingSample end = sampleOf("stick", sks::test::plane(0.008f, 0.001f), ViewKind::view, "stick.ply#1");
+  for (sks::TrainingSample* sample : {&side, &end}) {
+    sample->rendered = true;
+    sample->box = Eigen::AlignedBox3f(Eigen::Vector3f(-0.1f, -0.1f, -0.1f), Eigen::Vector3f(0.1f, 0.1f, 0.1f));
+  }
+  EXPECT_EQ(sks::train({end, side}, {}, "test").views.size(), 1u);
+  EXPECT_THAT(trainingError(ErrorCode::bad_data, {end}),
+              HasSubstr("stick.ply#1: none of the views of 'stick' shows more than a thin end of it; train more"));
+  end.rendered = false;  // of a camera's view the size is the user's affair
+  EXPECT_THAT(trainingError(ErrorCode::bad_data, {end, side}), HasSubstr("the cloud is too small"));
+}
+
 TEST(Trainer, WithoutCloudsThereIsNothingToTrain) {
   EXPECT_EQ(trainingError(ErrorCode::bad_usage, {}), "there is nothing to train: no training cloud was given");
 }

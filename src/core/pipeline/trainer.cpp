@@ -137,6 +137,10 @@ public:
     addWords(keypoints, descriptors);
   }
 
+  bool knows(const std::string& object) const {
+    return std::find(codebook_.objects.begin(), codebook_.objects.end(), object) != codebook_.objects.end();
+  }
+
   Codebook finish() {
     codebook_.settings.descriptor.type = codebook_.descriptor_type;
     codebook_.descriptors = values_.release(descriptors_->size());
@@ -212,6 +216,11 @@ Codebook train(const std::vector<TrainingSample>& samples, const Settings& setti
     } catch (const Error& error) {
       throw Error(error.code(), samples[i].source + ": " + error.what());
     }
+  }
+  for (const TrainingSample& sample : samples) {
+    if (builder.knows(sample.object)) continue;
+    throw Error(ErrorCode::bad_data, sample.source + ": none of the views of '" + sample.object +
+                                         "' shows more than a thin end of it; train more views");
   }
   report(progress, {"training", "", samples.size(), samples.size()});
   return builder.finish();

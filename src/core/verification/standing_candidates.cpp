@@ -20,37 +20,13 @@ struct RestingModel {
   std::uint32_t object = 0;
   const ModelSurface* surface = nullptr;
   RestingPose rest;
-  Eigen::Vector3f long_axis = Eigen::Vector3f::UnitX();  ///< unit, model frame, within the plane
-  float length = 0, width = 0;                           ///< within the plane [m]
+  BaseExtent base;  ///< model frame
 };
 
-RestingModel restingModel(std::uint32_t object, const ModelSurface& surface, const RestingPose& rest) {
-  RestingModel model{object, &surface, rest, {}, 0, 0};
-  const Eigen::Vector3f u = rest.down.unitOrthogonal(), v = rest.down.cross(u);
-  Eigen::Vector2f mean = Eigen::Vector2f::Zero();
-  for (const Eigen::Vector3f& p : surface.points) mean += Eigen::Vector2f(u.dot(p), v.dot(p));
-  mean /= float(surface.points.size());
-  Eigen::Matrix2f spread = Eigen::Matrix2f::Zero();
-  for (const Eigen::Vector3f& p : surface.points) {
-    const Eigen::Vector2f q = Eigen::Vector2f(u.dot(p), v.dot(p)) - mean;
-    spread += q * q.transpose();
-  }
-  const float angle = 0.5f * std::atan2(2 * spread(0, 1), spread(0, 0) - spread(1, 1));
-  model.long_axis = std::cos(angle) * u + std::sin(angle) * v;
-  const Eigen::Vector3f across = rest.down.cross(model.long_axis);
-  float least[2] = {1e9f, 1e9f}, most[2] = {-1e9f, -1e9f};
-  for (const Eigen::Vector3f& p : surface.points) {
-    const float along[2] = {model.long_axis.dot(p), across.dot(p)};
-    for (int k = 0; k < 2; ++k) least[k] = std::min(least[k], along[k]), most[k] = std::max(most[k], along[k]);
-  }
-  model.length = most[0] - least[0], model.width = most[1] - least[1];
-  return model;
-}
-
 bool fits(const RestingModel& model, const StandingThing& thing) {
-  const float model_diagonal = std::hypot(model.length, model.width);
+  const float model_diagonal = std::hypot(model.base.length, model.base.width);
   return std::abs(model.rest.height - thing.height) < size_tolerance &&
-         thing.length < model_diagonal + size_tolerance && thing.length > least_seen * model.length;
+         thing.base.length < model_diagonal + size_tolerance && thing.base.length > least_seen * model.base.length;
 }
 
 /// The model on the thing's plane, its long axis rotated from that of the thing, where what the sensor would see of it
@@ -58,9 +34,9 @@ bool fits(const RestingModel& model, const StandingThing& thing) {
 Eigen::Isometry3d placed(const RestingModel& model, const StandingThing& thing, float yaw,
                          const Eigen::Vector3f& sensor) {
   Eigen::Matrix3f from, to;  // columns: down, long axis, and across
-  from << model.rest.down, model.long_axis, model.rest.down.cross(model.long_axis);
-  const Eigen::Vector3f down = -thing.up, across = down.cross(thing.long_axis);
-  const Eigen::Vector3f axis = std::cos(yaw) * thing.long_axis + std::sin(yaw) * across;
+  from << model.rest.down, model.base.long_axis, model.rest.down.cross(model.base.long_axis);
+  const Eigen::Vector3f down = -thing.up, across = down.cross(thing.base.long_axis);
+  const Eigen::Vector3f axis = std::cos(yaw) * thing.base.long_axis + std::sin(yaw) * across;
   to << down, axis, down.cross(axis);
   const Eigen::Matrix3f R = to * from.transpose();
   const Eigen::Vector3f ray = thing.centroid - sensor;
@@ -92,7 +68,7 @@ std::vector<PoseCandidate> standingCandidates(const VerifiedModels& models, cons
     const ModelSurface& surface = *models.surfaces[v];
     if (surface.views.size() < 2 || surface.views.front() != v) continue;
     for (const RestingPose& rest : models.resting[v])
-      resting.push_back(restingModel(codebook.views[v].object, surface, rest));
+      resting.push_back({codebook.views[v].object, &surface, rest, baseExtent(surface.points, rest.down)});
   }
   std::vector<std::vector<PoseCandidate>> of_things(standing.things.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)

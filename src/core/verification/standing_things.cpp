@@ -124,24 +124,32 @@ StandingThing describedThing(const std::vector<Eigen::Vector3f>& points, const F
     thing.height = std::max(thing.height, frame.heightOf(p));
   }
   thing.centroid = sum / float(points.size());
+  thing.base = baseExtent(points, frame.up);
+  return thing;
+}
+
+}  // namespace
+
+BaseExtent baseExtent(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& up) {
+  const Eigen::Vector3f u = up.unitOrthogonal(), v = up.cross(u);
+  Eigen::Vector2f mean = Eigen::Vector2f::Zero();
+  for (const Eigen::Vector3f& p : points) mean += Eigen::Vector2f(u.dot(p), v.dot(p)) / float(points.size());
   Eigen::Matrix2f spread = Eigen::Matrix2f::Zero();
   for (const Eigen::Vector3f& p : points) {
-    const Eigen::Vector2f q(frame.u.dot(p - thing.centroid), frame.v.dot(p - thing.centroid));
+    const Eigen::Vector2f q = Eigen::Vector2f(u.dot(p), v.dot(p)) - mean;
     spread += q * q.transpose();
   }
   const float angle = 0.5f * std::atan2(2 * spread(0, 1), spread(0, 0) - spread(1, 1));
-  thing.long_axis = std::cos(angle) * frame.u + std::sin(angle) * frame.v;
-  const Eigen::Vector3f across = thing.up.cross(thing.long_axis);
+  BaseExtent base;
+  base.long_axis = std::cos(angle) * u + std::sin(angle) * v;
   const auto extentAlong = [&](const Eigen::Vector3f& axis) {
     float least = axis.dot(points[0]), most = least;
     for (const Eigen::Vector3f& p : points) least = std::min(least, axis.dot(p)), most = std::max(most, axis.dot(p));
     return most - least;
   };
-  thing.length = extentAlong(thing.long_axis), thing.width = extentAlong(across);
-  return thing;
+  base.length = extentAlong(base.long_axis), base.width = extentAlong(up.cross(base.long_axis));
+  return base;
 }
-
-}  // namespace
 
 StandingThings findStandingThings(const Surface& scene, const std::vector<LargePlane>& planes, float largest) {
   StandingThings standing;
@@ -164,7 +172,7 @@ StandingThings findStandingThings(const Surface& scene, const std::vector<LargeP
       const bool stands = std::any_of(members.begin(), members.end(),
                                       [&](const Eigen::Vector3f& p) { return frame.heightOf(p) < reach; });
       const StandingThing thing = describedThing(members, frame);
-      if (stands && thing.length <= largest + noise_at_edges) standing.things.push_back(thing);
+      if (stands && thing.base.length <= largest + noise_at_edges) standing.things.push_back(thing);
     }
   }
   return standing;

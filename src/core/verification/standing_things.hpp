@@ -11,14 +11,22 @@
 
 namespace sks {
 
+/// How far points extend within a plane.
+struct BaseExtent {
+  Eigen::Vector3f long_axis = Eigen::Vector3f::UnitX();  ///< unit: the first principal axis
+  float length = 0, width = 0;                           ///< along it, and across [m]
+};
+
+/// @param points at least one [m] @param up unit normal of the plane
+BaseExtent baseExtent(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& up);
+
 /// Something that stands or lies on a large plane with nothing near it.
 struct StandingThing {
-  Eigen::Vector3f up = Eigen::Vector3f::UnitZ();         ///< normal of the plane that it stands on, towards the sensor
-  float floor = 0;                                       ///< up . p for points p of that plane [m]
-  float height = 0;                                      ///< of its top above the plane [m]
-  Eigen::Vector3f centroid = Eigen::Vector3f::Zero();    ///< of what is seen of it [m]
-  Eigen::Vector3f long_axis = Eigen::Vector3f::UnitX();  ///< unit, within the plane: along which it is longest
-  float length = 0, width = 0;                           ///< of what is seen, within the plane [m]
+  Eigen::Vector3f up = Eigen::Vector3f::UnitZ();       ///< normal of the plane that it stands on, towards the sensor
+  float floor = 0;                                     ///< up . p for points p of that plane [m]
+  float height = 0;                                    ///< of its top above the plane [m]
+  Eigen::Vector3f centroid = Eigen::Vector3f::Zero();  ///< of what is seen of it [m]
+  BaseExtent base;                                     ///< of what is seen of it, within the plane
 };
 
 struct StandingThings {
