@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include <yaml-cpp/eventhandler.h>
@@ -96,10 +97,6 @@ public:
   void OnMapEnd() override { end(); }
 
 private:
-  struct Open {
-    YAML::anchor_t anchor;
-    std::size_t nodes_before;
-  };
   static constexpr std::size_t most_aliased = 1000000;
 
   void add(YAML::anchor_t anchor) {
@@ -108,7 +105,8 @@ private:
   }
   void begin(YAML::anchor_t anchor) { open_.push_back({anchor, nodes_++}); }
   void end() {
-    if (open_.back().anchor != YAML::NullAnchor) sizes_[open_.back().anchor] = nodes_ - open_.back().nodes_before;
+    const auto [anchor, nodes_before] = open_.back();
+    if (anchor != YAML::NullAnchor) sizes_[anchor] = nodes_ - nodes_before;
     open_.pop_back();
   }
 
@@ -116,7 +114,7 @@ private:
   int documents_ = 0;
   std::size_t nodes_ = 0, aliased_ = 0;  // with all that aliases stand for
   std::map<YAML::anchor_t, std::size_t> sizes_;
-  std::vector<Open> open_;
+  std::vector<std::pair<YAML::anchor_t, std::size_t>> open_;  // and how many nodes there were before
 };
 
 /// An upper bound of the nesting: brackets that are open, whatever they stand in, and blocks that one line begins.
