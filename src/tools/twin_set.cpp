@@ -66,8 +66,10 @@ std::string writeTwins(const std::string& data_set, const std::string& folder, c
     const Twin twin = makeTwin(readCloud(scene.path, original.scale), objectsOf(scene, meshes), camera, i, threads);
     scene.path = "scenes/" + scene.name + ".pcd";
     for (std::size_t k = 0; k < scene.objects.size(); ++k) {
-      scene.objects[k].points = twin.points[k];
-      scene.objects[k].reference = meshes.at(scene.objects[k].reference).source;
+      GroundTruth& truth = scene.objects[k];
+      const TwinMesh& used = meshes.at(truth.reference);
+      truth.points = twin.points[k];
+      truth.reference = used.source;
     }
     writeSceneFiles((fs::path(folder) / "scenes" / scene.name).string(), twin.cloud);
     text += sceneYaml(scene);
