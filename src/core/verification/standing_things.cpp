@@ -22,6 +22,9 @@ constexpr float reach = 0.03f;             // [m] what begins higher above the p
 constexpr std::size_t fewest_points = 12;  // of a thing, thinned to half of the gap
 constexpr std::size_t most_things = 40;
 
+/// Row and column of a patch: whole numbers, which integers need not hold.
+using PatchCell = std::pair<float, float>;
+
 /// A plane with axes of its own.
 struct Frame {
   Frame(const Eigen::Vector3f& normal, float offset) : up(normal), floor(offset) {
@@ -30,8 +33,8 @@ struct Frame {
   }
 
   float heightOf(const Eigen::Vector3f& p) const { return up.dot(p) - floor; }
-  std::pair<int, int> patchOf(const Eigen::Vector3f& p) const {
-    return {int(std::floor(u.dot(p) / patch_edge)), int(std::floor(v.dot(p) / patch_edge))};
+  PatchCell patchOf(const Eigen::Vector3f& p) const {
+    return {std::floor(u.dot(p) / patch_edge), std::floor(v.dot(p) / patch_edge)};
   }
 
   Eigen::Vector3f up, u, v;
@@ -52,7 +55,7 @@ Frame fittedFrame(const Surface& scene, const LargePlane& plane) {
 }
 
 struct Patch {
-  std::pair<int, int> cell;
+  PatchCell cell;
   float sum = 0;
   int count = 0;
 
@@ -61,7 +64,7 @@ struct Patch {
 
 /// Patches of points at a plane, by cell.
 std::vector<Patch> patchesAt(const Surface& scene, const Frame& frame) {
-  std::vector<std::pair<std::pair<int, int>, float>> heights;
+  std::vector<std::pair<PatchCell, float>> heights;
   for (std::size_t i = 0; i < scene.size(); ++i) {
     const float height = frame.heightOf(scene.point(i));
     if (std::abs(height) < near_plane) heights.push_back({frame.patchOf(scene.point(i)), height});
@@ -99,7 +102,7 @@ std::vector<std::uint32_t> risingPoints(const Surface& scene, const Frame& frame
   const std::vector<Patch> patches = patchesAt(scene, frame);
   if (patches.empty()) return {};
   const auto [base, rise] = baseAndRise(patches);
-  std::vector<std::pair<int, int>> raised;
+  std::vector<PatchCell> raised;
   for (const Patch& patch : patches) {
     if (patch.height() - base > rise) raised.push_back(patch.cell);
   }
