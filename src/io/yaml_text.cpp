@@ -103,7 +103,7 @@ private:
     ++nodes_;
     if (anchor != YAML::NullAnchor) sizes_[anchor] = 1;
   }
-  void begin(YAML::anchor_t anchor) { open_.push_back({anchor, nodes_++}); }
+  void begin(YAML::anchor_t anchor) { open_.emplace_back(anchor, nodes_++); }
   void end() {
     const auto [anchor, nodes_before] = open_.back();
     if (anchor != YAML::NullAnchor) sizes_[anchor] = nodes_ - nodes_before;
