@@ -87,6 +87,27 @@ bool isSupported(const ModelSurface& model, const Eigen::Vector3f& down, const E
 
 }  // namespace
 
+BaseExtent baseExtent(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& up) {
+  const Eigen::Vector3f u = up.unitOrthogonal(), v = up.cross(u);
+  Eigen::Vector2f mean = Eigen::Vector2f::Zero();
+  for (const Eigen::Vector3f& p : points) mean += Eigen::Vector2f(u.dot(p), v.dot(p)) / float(points.size());
+  Eigen::Matrix2f spread = Eigen::Matrix2f::Zero();
+  for (const Eigen::Vector3f& p : points) {
+    const Eigen::Vector2f q = Eigen::Vector2f(u.dot(p), v.dot(p)) - mean;
+    spread += q * q.transpose();
+  }
+  const float angle = 0.5f * std::atan2(2 * spread(0, 1), spread(0, 0) - spread(1, 1));
+  BaseExtent base;
+  base.long_axis = std::cos(angle) * u + std::sin(angle) * v;
+  const auto extentAlong = [&](const Eigen::Vector3f& axis) {
+    float least = axis.dot(points[0]), most = least;
+    for (const Eigen::Vector3f& p : points) least = std::min(least, axis.dot(p)), most = std::max(most, axis.dot(p));
+    return most - least;
+  };
+  base.length = extentAlong(base.long_axis), base.width = extentAlong(up.cross(base.long_axis));
+  return base;
+}
+
 std::vector<RestingPose> restingPoses(const ModelSurface& model) {
   if (model.points.empty()) return {};
   Eigen::Vector3f center = Eigen::Vector3f::Zero();
@@ -111,7 +132,8 @@ std::vector<RestingPose> restingPoses(const ModelSurface& model) {
     const float floor = down.dot(farthest(model.points, down)), top = down.dot(farthest(model.points, -down));
     const float height = floor - top;
     const auto isAlike = [&](const RestingPose& pose) { return std::abs(pose.height - height) < alike * height; };
-    if (std::count_if(poses.begin(), poses.end(), isAlike) < most_alike) poses.push_back({down, height, floor});
+    if (std::count_if(poses.begin(), poses.end(), isAlike) < most_alike)
+      poses.push_back({down, height, floor, baseExtent(model.points, down)});
   }
   return poses;
 }

@@ -9,11 +9,21 @@
 
 namespace sks {
 
+/// How far points extend within a plane.
+struct BaseExtent {
+  Eigen::Vector3f long_axis = Eigen::Vector3f::UnitX();  ///< unit: the first principal axis
+  float length = 0, width = 0;                           ///< along it, and across [m]
+};
+
+/// @param points at least one [m] @param up unit normal of the plane
+BaseExtent baseExtent(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& up);
+
 /// A way in which an object lies still on a plane.
 struct RestingPose {
   Eigen::Vector3f down = Eigen::Vector3f::UnitZ();  ///< unit, model frame: towards the plane
   float height = 0;                                 ///< of the object along it [m]
   float floor = 0;                                  ///< down . p for the points p that touch the plane [m]
+  BaseExtent base;                                  ///< of the object along the plane, model frame
 };
 
 /// Those in which the centre of the surface lies lower than in all rotations around: an object ends in one of these

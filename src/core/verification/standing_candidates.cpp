@@ -20,13 +20,12 @@ struct RestingModel {
   std::uint32_t object = 0;
   const ModelSurface* surface = nullptr;
   RestingPose rest;
-  BaseExtent base;  ///< model frame
 };
 
 bool fits(const RestingModel& model, const StandingThing& thing) {
-  const float model_diagonal = std::hypot(model.base.length, model.base.width);
+  const float model_diagonal = std::hypot(model.rest.base.length, model.rest.base.width);
   return std::abs(model.rest.height - thing.height) < size_tolerance &&
-         thing.base.length < model_diagonal + size_tolerance && thing.base.length > least_seen * model.base.length;
+         thing.base.length < model_diagonal + size_tolerance && thing.base.length > least_seen * model.rest.base.length;
 }
 
 /// The model on the thing's plane, its long axis rotated from that of the thing, where what the sensor would see of it
@@ -34,7 +33,7 @@ bool fits(const RestingModel& model, const StandingThing& thing) {
 Eigen::Isometry3d placed(const RestingModel& model, const StandingThing& thing, float yaw,
                          const Eigen::Vector3f& sensor) {
   Eigen::Matrix3f from, to;  // columns: down, long axis, and across
-  from << model.rest.down, model.base.long_axis, model.rest.down.cross(model.base.long_axis);
+  from << model.rest.down, model.rest.base.long_axis, model.rest.down.cross(model.rest.base.long_axis);
   const Eigen::Vector3f down = -thing.up, across = down.cross(thing.base.long_axis);
   const Eigen::Vector3f axis = std::cos(yaw) * thing.base.long_axis + std::sin(yaw) * across;
   to << down, axis, down.cross(axis);
@@ -67,8 +66,7 @@ std::vector<PoseCandidate> standingCandidates(const VerifiedModels& models, cons
   for (std::uint32_t v = 0; v < codebook.views.size(); ++v) {
     const ModelSurface& surface = *models.surfaces[v];
     if (surface.views.size() < 2 || surface.views.front() != v) continue;
-    for (const RestingPose& rest : models.resting[v])
-      resting.push_back({codebook.views[v].object, &surface, rest, baseExtent(surface.points, rest.down)});
+    for (const RestingPose& rest : models.resting[v]) resting.push_back({codebook.views[v].object, &surface, rest});
   }
   std::vector<std::vector<PoseCandidate>> of_things(standing.things.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)

@@ -133,27 +133,6 @@ StandingThing describedThing(const std::vector<Eigen::Vector3f>& points, const F
 
 }  // namespace
 
-BaseExtent baseExtent(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& up) {
-  const Eigen::Vector3f u = up.unitOrthogonal(), v = up.cross(u);
-  Eigen::Vector2f mean = Eigen::Vector2f::Zero();
-  for (const Eigen::Vector3f& p : points) mean += Eigen::Vector2f(u.dot(p), v.dot(p)) / float(points.size());
-  Eigen::Matrix2f spread = Eigen::Matrix2f::Zero();
-  for (const Eigen::Vector3f& p : points) {
-    const Eigen::Vector2f q = Eigen::Vector2f(u.dot(p), v.dot(p)) - mean;
-    spread += q * q.transpose();
-  }
-  const float angle = 0.5f * std::atan2(2 * spread(0, 1), spread(0, 0) - spread(1, 1));
-  BaseExtent base;
-  base.long_axis = std::cos(angle) * u + std::sin(angle) * v;
-  const auto extentAlong = [&](const Eigen::Vector3f& axis) {
-    float least = axis.dot(points[0]), most = least;
-    for (const Eigen::Vector3f& p : points) least = std::min(least, axis.dot(p)), most = std::max(most, axis.dot(p));
-    return most - least;
-  };
-  base.length = extentAlong(base.long_axis), base.width = extentAlong(up.cross(base.long_axis));
-  return base;
-}
-
 StandingThings findStandingThings(const Surface& scene, const std::vector<LargePlane>& planes, float largest) {
   StandingThings standing;
   standing.rises.assign(scene.size(), 0);

@@ -9,16 +9,9 @@
 #include <sks_detector/stages/large_planes.hpp>
 #include <sks_detector/stages/surface.hpp>
 
+#include "core/verification/resting_poses.hpp"
+
 namespace sks {
-
-/// How far points extend within a plane.
-struct BaseExtent {
-  Eigen::Vector3f long_axis = Eigen::Vector3f::UnitX();  ///< unit: the first principal axis
-  float length = 0, width = 0;                           ///< along it, and across [m]
-};
-
-/// @param points at least one [m] @param up unit normal of the plane
-BaseExtent baseExtent(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& up);
 
 /// Something that stands or lies on a large plane with nothing near it.
 struct StandingThing {
