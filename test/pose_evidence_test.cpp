@@ -95,9 +95,9 @@ TEST(PoseEvidence, RoughSupportTellsAGoodPoseFromABadOne) {
   const Settings settings;
   const Surface scene = sceneWith();
   const SceneView scene_view(scene, settings);
-  const SurfaceWeights surface_weights(trained());
-  const RoughSupport good = roughSupport(trained(), surface_weights, scene_view, moved(0.004, 0, 0));
-  const RoughSupport bad = roughSupport(trained(), surface_weights, scene_view, moved(0, 0, -0.2));
+  const RoughSurface surface(trained(), SurfaceWeights(trained()));
+  const RoughSupport good = roughSupport(surface, scene_view, moved(0.004, 0, 0));
+  const RoughSupport bad = roughSupport(surface, scene_view, moved(0, 0, -0.2));
   EXPECT_GT(good.points, 50);
   EXPECT_GT(good.supported, 0.7 * good.visible);
   EXPECT_EQ(bad.points, 0);

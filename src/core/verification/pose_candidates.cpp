@@ -48,7 +48,7 @@ std::vector<PoseCandidate> mostPromising(std::vector<PoseCandidate> candidates, 
 
 }  // namespace
 
-std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<SurfaceWeights>& surface_weights,
+std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<RoughSurface>& surfaces,
                                           const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
                                           const Settings& settings, int threads) {
   std::vector<PoseCandidate> all;
@@ -62,8 +62,7 @@ std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::v
       const Codeword& word = codebook.words[votes[i].word];
       PoseCandidate& candidate = candidates[i];
       candidate = {object, word.view, poseOf(votes[i], word), 0, false};
-      const RoughSupport support =
-          roughSupport(codebook.views[word.view], surface_weights[word.view], scene, candidate.T_scene_model);
+      const RoughSupport support = roughSupport(surfaces[word.view], scene, candidate.T_scene_model);
       if (support.points < fewest_supported) continue;
       const double fraction = support.supported / (support.visible + prior_weight);
       candidate.pre_score = fraction * std::sqrt(support.supported * density.at(votes[i].position));

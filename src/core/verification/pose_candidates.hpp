@@ -10,7 +10,7 @@
 #include <sks_detector/settings.hpp>
 #include <sks_detector/stages/voting.hpp>
 
-#include "core/verification/pose_evidence.hpp"
+#include "core/verification/rough_support.hpp"
 
 namespace sks {
 
@@ -26,7 +26,7 @@ struct PoseCandidate {
 
 /// The most promising poses of each object, at most `verification.candidates`, best first within each object.
 /// @param surface_weights of each view
-std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<SurfaceWeights>& surface_weights,
+std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<RoughSurface>& surfaces,
                                           const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
                                           const Settings& settings, int threads);
 

@@ -13,11 +13,6 @@ namespace {
 
 constexpr float weight_radius = 0.02f;  // [m] the scale of the keypoints' local surfaces
 constexpr float color_weight = 0.5f;    // of varying colours beside varying normals
-constexpr std::size_t rough_points = 80;
-constexpr float rough_distance = 0.015f;   // [m] rough poses are that far off
-constexpr float rough_agreement = 0.7f;    // cosine, about 45 degrees
-constexpr float rough_occlusion = 0.02f;   // [m]
-constexpr float rough_color_slack = 1.5f;  // of the tolerance: prints are off by as much as the pose
 
 /// One point of a stored surface in the scene.
 struct Placed {
@@ -139,37 +134,6 @@ PoseEvidence examinePose(const TrainingView& view, const SurfaceWeights& surface
     evidence.confirming.push_back(correspondence.point);
   });
   return evidence;
-}
-
-RoughSupport roughSupport(const TrainingView& view, const SurfaceWeights& surface_weights, const SceneView& scene,
-                          const Eigen::Isometry3d& T_scene_model) {
-  const Surface& surface = scene.surface;
-  const std::size_t stride = std::max<std::size_t>(1, view.surface_points.size() / rough_points);
-  const bool compares_color = scene.comparesColor(view);
-  const std::vector<float>& weights = compares_color ? surface_weights.shape_and_color : surface_weights.shape;
-  const float color_tolerance = rough_color_slack * scene.color_tolerance;
-  RoughSupport support;
-  forEachFacing(view, surface, T_scene_model, stride, [&](std::size_t i, const Placed& placed) {
-    const Sighting seen = scene.range_image.look(placed.point, rough_occlusion);
-    const Sight sight = seen.sight;
-    const bool confirmed = seen.hasPoint() && placed.normal.dot(seen.cell->normal()) > rough_agreement &&
-                           (seen.cell->position() - placed.point).squaredNorm() < rough_distance * rough_distance;
-    if (confirmed) {
-      ++support.points;
-      const double agreement =
-          compares_color ? colorAgreement(squaredColorDifference(view.surface_colors[i],
-                                                                 scene.colorAt(scene.range_image.pointOf(seen))),
-                                          color_tolerance)
-                         : 1;
-      support.supported += agreement * weights[i];
-    }
-    if (confirmed || sight == Sight::at || sight == Sight::in_front) {
-      support.visible += weights[i];
-    } else if (sight == Sight::unknown) {
-      support.visible += unmeasured * weights[i];
-    }
-  });
-  return support;
 }
 
 }  // namespace sks

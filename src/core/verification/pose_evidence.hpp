@@ -74,15 +74,4 @@ PoseEvidence examinePose(const TrainingView& view, const SurfaceWeights& surface
                          const Settings& settings, const Eigen::Isometry3d& T_scene_model,
                          std::size_t most_points = 1500, CorrespondenceSearch search = CorrespondenceSearch::nearby);
 
-/// A quick look at a rough pose, along the sensor's rays only: how much of up to 80 points of the view's surface the
-/// scene confirms. Points count by their weight.
-struct RoughSupport {
-  int points = 0;        ///< confirmed
-  double supported = 0;  ///< their weights
-  double visible = 0;    ///< weights of all that should be seen; half where nothing was measured
-};
-
-RoughSupport roughSupport(const TrainingView& view, const SurfaceWeights& surface_weights, const SceneView& scene,
-                          const Eigen::Isometry3d& T_scene_model);
-
 }  // namespace sks

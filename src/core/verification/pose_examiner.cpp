@@ -38,7 +38,11 @@ double evidenceOf(const PoseEvidence& pose, double density) {
 VerifiedModels::VerifiedModels(std::shared_ptr<const Codebook> models)
     : codebook(std::move(models)), surfaces(modelSurfaces(*codebook)) {
   weights.reserve(codebook->views.size());
-  for (const TrainingView& view : codebook->views) weights.emplace_back(view);
+  rough.reserve(codebook->views.size());
+  for (const TrainingView& view : codebook->views) {
+    weights.emplace_back(view);
+    rough.emplace_back(view, weights.back());
+  }
   for (std::uint32_t v = 0; v < surfaces.size(); ++v) {
     const std::vector<std::uint32_t>& together = surfaces[v]->views;
     const bool has_them = together.size() > 1 && together.front() == v;

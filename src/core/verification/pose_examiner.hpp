@@ -13,6 +13,7 @@
 #include "core/verification/model_surface.hpp"
 #include "core/verification/pose_evidence.hpp"
 #include "core/verification/resting_poses.hpp"
+#include "core/verification/rough_support.hpp"
 #include "core/verification/sight_lines.hpp"
 #include "core/voting/vote_density.hpp"
 
@@ -28,6 +29,7 @@ struct VerifiedModels {
   std::shared_ptr<const Codebook> codebook;
   std::vector<std::shared_ptr<const ModelSurface>> surfaces;  ///< in the frame of each view
   std::vector<SurfaceWeights> weights;                        ///< of the points of each view's stored surface
+  std::vector<RoughSurface> rough;                            ///< of each view, for a quick look
   std::vector<std::vector<RestingPose>> resting;  ///< of the surface of each view; of shared ones the first has them
 };
 

@@ -82,6 +82,9 @@ public:
     return sighting.cell == nullptr ? no_point : points_[std::size_t(sighting.cell - cells_.data())];
   }
 
+  /// Index of the scene point that a cell holds; `no_point` without any.
+  std::uint32_t pointAt(std::size_t cell) const { return points_[cell]; }
+
   const Projection& projection() const { return projection_; }
   /// Median angle between neighbouring points of the scene [rad].
   float spacing() const { return spacing_; }

@@ -25,23 +25,34 @@ struct RaySample {
   std::size_t index = 0;  // of the model's points
 };
 
+int floorOf(float value) {
+  const int truncated = int(value);
+  return truncated - (value < float(truncated) ? 1 : 0);
+}
+
 /// The model as the sensor would see it alone: the nearest of its points in each cell of a perspective grid.
 class Silhouette {
 public:
   Silhouette(const ModelSurface& model, const SceneView& scene, const Eigen::Isometry3f& T, float self_occlusion) {
     const RangeImage::Projection& image = scene.range_image.projection();
-    std::vector<RaySample> facing;
+    const Eigen::Vector3f sensor = T.inverse() * image.origin;
+    thread_local std::vector<RaySample> facing;  // these keep their memory from pose to pose
+    thread_local std::vector<float> nearest;
+    facing.clear();
     for (std::size_t i = 0; i < model.points.size(); ++i) {
+      const Eigen::Vector3f to_sensor = sensor - model.points[i];
+      const float range = to_sensor.norm();
+      if (!(model.normals[i].dot(to_sensor) > grazing * range)) continue;
       RaySample placed;
       placed.point = T * model.points[i];
+      const Eigen::Vector3f p = image.axes * (placed.point - image.origin);
+      if (!(p.z() > RangeImage::rim * range)) continue;
       placed.normal = T.linear() * model.normals[i];
-      const Eigen::Vector3f ray = placed.point - image.origin, p = image.axes * ray;
-      placed.range = ray.norm();
+      placed.range = range;
       placed.index = i;
-      if (!(-placed.normal.dot(ray) > grazing * placed.range && p.z() > RangeImage::rim * placed.range)) continue;
-      if (facing.empty()) cell_ = points_per_cell * model.resolution / placed.range;  // about the same for all
-      placed.column = int(std::floor(p.x() / p.z() / cell_));
-      placed.row = int(std::floor(p.y() / p.z() / cell_));
+      if (facing.empty()) cell_ = points_per_cell * model.resolution / range;  // about the same for all
+      placed.column = floorOf(p.x() / p.z() / cell_);
+      placed.row = floorOf(p.y() / p.z() / cell_);
       facing.push_back(placed);
     }
     if (facing.empty()) return;
@@ -56,9 +67,13 @@ public:
       width_ = height_ = 0;
       return;
     }
-    std::vector<float> nearest(std::size_t(width_) * std::size_t(height_), std::numeric_limits<float>::infinity());
-    for (const RaySample& p : facing) nearest[at(p.column, p.row)] = std::min(nearest[at(p.column, p.row)], p.range);
+    nearest.assign(std::size_t(width_) * std::size_t(height_), std::numeric_limits<float>::infinity());
+    for (const RaySample& p : facing) {
+      float& range = nearest[at(p.column, p.row)];
+      range = std::min(range, p.range);
+    }
     covered_.assign(nearest.size(), 0);
+    visible_.reserve(facing.size());
     for (const RaySample& p : facing) {
       if (p.range > nearest[at(p.column, p.row)] + self_occlusion) continue;
       covered_[at(p.column, p.row)] = 1;

@@ -80,8 +80,7 @@ std::vector<PoseCandidate> standingCandidates(const VerifiedModels& models, cons
         candidate.object = model.object;
         candidate.T_scene_model = placed(model, thing, float(2 * EIGEN_PI * k / yaws), scene.surface.sensor_origin);
         candidate.view = nearestView(codebook, *model.surface, scene.surface.sensor_origin, candidate.T_scene_model);
-        const RoughSupport support = roughSupport(codebook.views[candidate.view], models.weights[candidate.view], scene,
-                                                  candidate.T_scene_model);
+        const RoughSupport support = roughSupport(models.rough[candidate.view], scene, candidate.T_scene_model);
         if (support.points < fewest_confirmed) continue;
         candidate.pre_score = support.supported / (support.visible + prior_of_check) * std::sqrt(support.supported);
         if (candidate.pre_score > best.pre_score) best = candidate;

@@ -131,32 +131,52 @@ StandingThing describedThing(const std::vector<Eigen::Vector3f>& points, const F
   return thing;
 }
 
+/// What stands on one plane.
+struct OnePlane {
+  std::vector<StandingThing> things;
+  std::vector<std::uint32_t> rises;  // scene points so near the plane that they could be taken for it
+};
+
+OnePlane standingOn(const LargePlane& plane, const Surface& scene, float largest) {
+  OnePlane standing;
+  const Frame frame = fittedFrame(scene, plane);
+  std::vector<Eigen::Vector3f> points;
+  for (const std::uint32_t i : risingPoints(scene, frame, largest)) {
+    if (frame.heightOf(scene.point(i)) < near_plane) standing.rises.push_back(i);
+    points.push_back(scene.point(i));
+  }
+  if (points.empty()) return standing;
+  const PointGrid grid(points, gap);
+  std::vector<Eigen::Vector3f> thinned;
+  for (const std::uint32_t i : thinnedIndices(grid, 0.5 * double(gap))) thinned.push_back(grid.point(i));
+  for (const Indices& cluster : findClusters(thinned, gap)) {
+    if (cluster.size() < fewest_points || standing.things.size() >= most_things) break;
+    const std::vector<Eigen::Vector3f> members = at(thinned, cluster);
+    const bool stands = std::any_of(members.begin(), members.end(),
+                                    [&](const Eigen::Vector3f& p) { return frame.heightOf(p) < reach; });
+    const StandingThing thing = describedThing(members, frame);
+    if (stands && thing.base.length <= largest + noise_at_edges) standing.things.push_back(thing);
+  }
+  return standing;
+}
+
 }  // namespace
 
-StandingThings findStandingThings(const Surface& scene, const std::vector<LargePlane>& planes, float largest) {
+StandingThings findStandingThings(const Surface& scene, const std::vector<LargePlane>& planes, float largest,
+                                  int threads) {
+  std::vector<OnePlane> found(planes.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t p = 0; p < planes.size(); ++p) {
+    const bool side_of_a_thing = planes[p].extent < largest;
+    if (!side_of_a_thing) found[p] = standingOn(planes[p], scene, largest);
+  }
   StandingThings standing;
   standing.rises.assign(scene.size(), 0);
-  for (const LargePlane& plane : planes) {
-    if (plane.extent < largest) continue;  // a side of a thing
-    const Frame frame = fittedFrame(scene, plane);
-    std::vector<Eigen::Vector3f> points;
-    for (const std::uint32_t i : risingPoints(scene, frame, largest)) {
-      if (frame.heightOf(scene.point(i)) < near_plane) standing.rises[i] = 1;
-      points.push_back(scene.point(i));
-    }
-    if (points.empty()) continue;
-    const PointGrid grid(points, gap);
-    std::vector<Eigen::Vector3f> thinned;
-    for (const std::uint32_t i : thinnedIndices(grid, 0.5 * double(gap))) thinned.push_back(grid.point(i));
-    for (const Indices& cluster : findClusters(thinned, gap)) {
-      if (cluster.size() < fewest_points || standing.things.size() >= most_things) break;
-      const std::vector<Eigen::Vector3f> members = at(thinned, cluster);
-      const bool stands = std::any_of(members.begin(), members.end(),
-                                      [&](const Eigen::Vector3f& p) { return frame.heightOf(p) < reach; });
-      const StandingThing thing = describedThing(members, frame);
-      if (stands && thing.base.length <= largest + noise_at_edges) standing.things.push_back(thing);
-    }
+  for (const OnePlane& one : found) {
+    for (const std::uint32_t i : one.rises) standing.rises[i] = 1;
+    standing.things.insert(standing.things.end(), one.things.begin(), one.things.end());
   }
+  if (standing.things.size() > most_things) standing.things.resize(most_things);
   return standing;
 }
 

@@ -30,8 +30,9 @@ struct StandingThings {
 };
 
 /// What stands on the large planes of a scene: connected groups of points that rise from a plane, down to a few
-/// millimetres, which many points that lie side by side tell from the noise. Deterministic.
+/// millimetres, which many points that lie side by side tell from the noise. Deterministic, for any number of threads.
 /// @param largest what is larger than this stands there as furniture [m]
-StandingThings findStandingThings(const Surface& scene, const std::vector<LargePlane>& planes, float largest);
+StandingThings findStandingThings(const Surface& scene, const std::vector<LargePlane>& planes, float largest,
+                                  int threads = 1);
 
 }  // namespace sks

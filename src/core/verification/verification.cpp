@@ -17,7 +17,8 @@ constexpr double largest_claimed = 0.5;  // of the confirming points; else a hyp
 // Of the evidence that scores 0.5: what has less is not worth the last rounds, or a search for more than what is in
 // sight.
 constexpr double plausible_fraction = 0.5, lowest_fraction = 0.3;
-constexpr double color_doubt = 2;  // as many good hypotheses it takes to tell light from a wrong object
+constexpr int most_at_a_position = 8;  // hypotheses of one object that are looked at with all they have
+constexpr double color_doubt = 2;      // as many good hypotheses it takes to tell light from a wrong object
 
 /// Votes for the position of the hypothesis whose correspondences fit its pose.
 std::vector<std::uint32_t> inliersOf(const Codebook& codebook, const std::vector<Vote>& votes,
@@ -51,21 +52,28 @@ bool better(const Examined& a, const Examined& b) {
   return key(a.hypothesis) < key(b.hypothesis);
 }
 
-/// Of hypotheses for one object at one position the best; `examined` is sorted.
-std::vector<Examined> suppressNonMaxima(std::vector<Examined> examined, const Codebook& codebook,
-                                        const Settings& settings) {
+/// Of hypotheses for one object at one position the `most` best; `examined` is sorted.
+std::vector<Examined> bestAtPositions(std::vector<Examined> examined, int most, const Settings& settings) {
   std::vector<Examined> kept;
-  std::vector<int> count(codebook.objects.size(), 0);
   for (Examined& candidate : examined) {
     const Hypothesis& a = candidate.hypothesis;
-    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Examined& other) {
+    const auto better_ones = std::count_if(kept.begin(), kept.end(), [&](const Examined& other) {
       const Hypothesis& b = other.hypothesis;
       const double distance = (a.T_scene_box.translation() - b.T_scene_box.translation()).norm();
       return a.object == b.object && distance < settings.voting.suppression_radius;
     });
-    if (known || count[a.object] >= settings.detection.max_per_object) continue;
-    ++count[a.object];
-    kept.push_back(std::move(candidate));
+    if (better_ones < most) kept.push_back(std::move(candidate));
+  }
+  return kept;
+}
+
+/// The best hypotheses of each object; `examined` is sorted.
+std::vector<Examined> bestOfObjects(std::vector<Examined> examined, const Codebook& codebook,
+                                    const Settings& settings) {
+  std::vector<Examined> kept;
+  std::vector<int> count(codebook.objects.size(), 0);
+  for (Examined& candidate : examined) {
+    if (count[candidate.hypothesis.object]++ < settings.detection.max_per_object) kept.push_back(std::move(candidate));
   }
   return kept;
 }
@@ -109,9 +117,9 @@ double SurfaceVerifier::score(const Hypothesis& hypothesis, const Settings& sett
 std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector<Vote>>& spaces, SceneView scene,
                                                    const Settings& settings, int threads) const {
   const Codebook& codebook = *models_.codebook;
-  std::vector<PoseCandidate> candidates = poseCandidates(codebook, models_.weights, spaces, scene, settings, threads);
+  std::vector<PoseCandidate> candidates = poseCandidates(codebook, models_.rough, spaces, scene, settings, threads);
   if (models_.anyRests()) {
-    StandingThings standing = findStandingThings(scene.surface, scene.planes, largestDiagonal(codebook));
+    StandingThings standing = findStandingThings(scene.surface, scene.planes, largestDiagonal(codebook), threads);
     scene.rises = std::move(standing.rises);
     const std::vector<PoseCandidate> more = standingCandidates(models_, standing, scene, threads);
     candidates.insert(candidates.end(), more.begin(), more.end());
@@ -130,11 +138,16 @@ std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector
     hypothesis.T_scene_model =
         refineAlongRays(codebook.views[candidate.view], scene, settings.refinement, candidate.T_scene_model);
     examined[i] = examiner.examineAlongRays(std::move(hypothesis));
+  }
+  std::sort(examined.begin(), examined.end(), better);
+  examined = bestAtPositions(std::move(examined), most_at_a_position, settings);
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < examined.size(); ++i) {
     if (examined[i].hypothesis.evidence < lowest_fraction * half) continue;
     examined[i] = examiner.examineRoughly(std::move(examined[i].hypothesis));
   }
   std::sort(examined.begin(), examined.end(), better);
-  examined = suppressNonMaxima(std::move(examined), codebook, settings);
+  examined = bestOfObjects(bestAtPositions(std::move(examined), 1, settings), codebook, settings);
 
   const auto isPlausible = [&](const Examined& e) { return e.hypothesis.evidence >= plausible_fraction * half; };
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <sks_detector/codebook.hpp>
+#include <sks_detector/stages/surface.hpp>
+
+namespace sks {
+
+/// Rotation and translation, as kernels take them.
+using RigidRows = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
+
+/// Some points of a stored surface and their normals side by side, padded with points that face nowhere.
+struct SurfaceSample {
+  /// Takes every `stride`-th point of a view's surface. @return their centroid
+  Eigen::Vector3f take(const TrainingView& view, std::size_t stride) {
+    for (auto* axis : {&x, &y, &z, &nx, &ny, &nz}) axis->clear();
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    for (std::size_t i = 0; i < view.surface_points.size(); i += stride) {
+      add(view.surface_points[i], view.surface_normals[i]);
+      sum += view.surface_points[i];
+    }
+    size = x.size();
+    const Eigen::Vector3f centroid = sum / float(std::max<std::size_t>(1, size));
+    for (std::size_t i = 0; i < PointGrid::simd_padding; ++i) add(centroid, Eigen::Vector3f::Zero());
+    return centroid;
+  }
+
+  std::vector<float> x, y, z, nx, ny, nz;
+  std::size_t size = 0;
+
+private:
+  void add(const Eigen::Vector3f& p, const Eigen::Vector3f& n) {
+    x.push_back(p.x());
+    y.push_back(p.y());
+    z.push_back(p.z());
+    nx.push_back(n.x());
+    ny.push_back(n.y());
+    nz.push_back(n.z());
+  }
+};
+
+}  // namespace sks
