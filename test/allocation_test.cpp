@@ -16,6 +16,7 @@
 #include "core/verification/pose_evidence.hpp"
 #include "core/verification/projective_refinement.hpp"
 #include "core/verification/refinement.hpp"
+#include "core/verification/rough_support.hpp"
 #include "core/voting/vote_density.hpp"
 #include "synthetic.hpp"
 #include "training_samples.hpp"

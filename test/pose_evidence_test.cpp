@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/verification/rough_support.hpp"
 #include "prepared.hpp"
 #include "synthetic.hpp"
 #include "training_samples.hpp"
