@@ -9,6 +9,9 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 workspace=${SKS_WORKSPACE:-$root/build/catkin}
 export SKS_DATA=${SKS_DATA:-$(dirname "$root")/shared/data}
 
+# Threads that wait for each other sleep, or they slow each other down wherever other programs need the cores.
+export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
+
 # catkin and its modules belong to the system's python3; another one may come first in PATH.
 export PATH=/usr/bin:$PATH
 

@@ -268,6 +268,7 @@ TEST(Detector, CountsAndOrdersWhatItDoes) {
   sks::Settings settings;
   settings.keypoints.discard = 0.25;
   settings.keypoints.skip_planes = false;
+  settings.matching.background = false;
   const sks::Cloud scene = clutteredScene();
   EXPECT_GT(sks::Detector(twoObjects(), settings).detect(scene).counts.votes,
             sks::Detector(twoObjects(), settings).detect(scene).counts.descriptors);  // of other objects too

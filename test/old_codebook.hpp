@@ -35,7 +35,7 @@ inline std::string withOldSettings(std::string content, const Settings& settings
   };
   const std::string ambiguity = "  ambiguity: " + getSetting(settings, "matching.ambiguity") + "\n";
   const std::string planes = "  skip_planes: " + getSetting(settings, "keypoints.skip_planes") + "\n";
-  replace("matching:\n" + ambiguity, "");
+  replace("matching:\n" + ambiguity + "  background: " + getSetting(settings, "matching.background") + "\n", "");
   replace(planes, "");
   replace("  hypotheses: verified\n", "");
   replace("  candidates: " + std::to_string(settings.verification.candidates) + "\n",

@@ -12,6 +12,7 @@
 
 namespace sks {
 
+class NearestWord;
 class ObjectMatcher;
 
 /// Finds the objects of a codebook in clouds: composes the stages of section 3.2. Immutable but for assignment: several
@@ -45,11 +46,13 @@ public:
 
 private:
   const VerifierStage& verifier() const;
+  void findBackground();
 
   std::shared_ptr<const Codebook> codebook_;
   Settings settings_;
   Stages stages_;  // the verifier only where it is the user's
   std::shared_ptr<const ObjectMatcher> matcher_;
+  std::shared_ptr<const NearestWord> background_;  // none: nothing competes with the codebook
   std::shared_ptr<const VerifierStage> surface_verifier_, hough_verifier_;
 };
 

@@ -174,6 +174,7 @@ struct DescriptorSettings {
 
 struct MatchingSettings {
   double ambiguity = 1.3;
+  bool background = true;
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
@@ -182,6 +183,10 @@ struct MatchingSettings {
       "distance of the nearest of all codewords, with less weight the farther it is; larger: objects that look alike "
       "are confused less, but slower; 1: only the nearest codeword, as published. It counts as 1 in scenes where "
       "detection.hypotheses is hough");
+    v(s.background, "background",
+      "descriptors of common shapes (boxes, cans, bottles, balls) compete with the codewords: what resembles them more "
+      "than an object votes less for it, so that a codebook of one object is not fooled by everything else; false: "
+      "faster. Only used with shot, where detection.hypotheses is verified");
   }
 };
 

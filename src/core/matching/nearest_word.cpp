@@ -183,6 +183,7 @@ void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* con
   for (std::size_t q = 0; q < count; ++q) {
     Search& search = *searches[q];
     const std::size_t likely = indexOfSmallest(bounds[q], words);
+    if (bounds[q][likely] > limitOfTile(search, first_block) + search.query.slack) continue;
     measureLikely(search, std::uint32_t(first_block * block_words + likely), bounds[q][likely]);
     const float highest = limitOfTile(search, first_block) + search.query.slack;
     const std::size_t kept = selectUpTo(highest, bounds[q], words, work.selected.data());
@@ -281,24 +282,26 @@ void NearestWord::visitNearest(std::size_t count, Workspace& work) const {
   }
 }
 
-void NearestWord::start(Search& search, const float* histogram, float factor, Workspace& work) const {
+void NearestWord::start(Search& search, const float* histogram, float factor, float limit, Workspace& work) const {
   search.histogram = histogram;
   search.factor = factor;
   codes_.encode(histogram, work.projection, search.query);
   if (!exact()) estimate(search.query);
-  search.best = nothing;
-  search.best_of_group.assign(groups_, nothing);
+  search.best = limit;
+  search.best_of_group.assign(groups_, limit);
   search.lowest_of_group.assign(groups_, nothing);
   search.slots.clear();
   search.bounds.clear();
 }
 
 void NearestWord::find(const DescriptorMatrix& queries, std::size_t first, std::size_t count, float factor,
-                       Match* matches, Workspace& work) const {
+                       const float* limits, Match* matches, Workspace& work) const {
   work.searches.resize(std::max(work.searches.size(), count));
   work.bounds.resize(queries_at_once * tile_blocks * block_words);
   work.selected.resize(std::max(work.selected.size(), tile_blocks * block_words + selection_room));
-  for (std::size_t i = 0; i < count; ++i) start(work.searches[i], queries.row(first + i), factor, work);
+  for (std::size_t i = 0; i < count; ++i) {
+    start(work.searches[i], queries.row(first + i), factor, limits != nullptr ? limits[first + i] : nothing, work);
+  }
   if (exact()) {
     visitAll(count, work);
   } else {
@@ -311,7 +314,8 @@ void NearestWord::find(const DescriptorMatrix& queries, std::size_t first, std::
   }
 }
 
-std::vector<Match> NearestWord::find(const DescriptorMatrix& queries, float factor, int threads) const {
+std::vector<Match> NearestWord::find(const DescriptorMatrix& queries, float factor, int threads,
+                                     const float* limits) const {
   if (queries.cols() != words_.cols()) {
     throw Error(ErrorCode::incompatible, "descriptors of " + std::to_string(queries.cols()) +
                                              " bins cannot be matched with codewords of " +
@@ -325,7 +329,7 @@ std::vector<Match> NearestWord::find(const DescriptorMatrix& queries, float fact
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
   for (std::size_t first = 0; first < queries.rows(); first += batch) {
     static thread_local Workspace work;  // kept from frame to frame
-    find(queries, first, std::min(batch, queries.rows() - first), factor, &matches[first * groups_], work);
+    find(queries, first, std::min(batch, queries.rows() - first), factor, limits, &matches[first * groups_], work);
   }
   return matches;
 }

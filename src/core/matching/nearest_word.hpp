@@ -54,9 +54,11 @@ public:
   /// Finds the nearest words of all queries; of equally near words the first. There must be words.
   /// @param factor at least 1; the nearest word of a group is found where it is within this factor of the distance of
   ///        the nearest of all
+  /// @param limits of the distance of each query's nearest words, on which less time is spent; none: nullptr
   /// @return one for each query and group, query by query; of infinite distance where none was found
   /// @throws Error(incompatible) if the descriptors' sizes differ
-  std::vector<Match> find(const DescriptorMatrix& queries, float factor, int threads) const;
+  std::vector<Match> find(const DescriptorMatrix& queries, float factor, int threads,
+                          const float* limits = nullptr) const;
 
 private:
   bool exact() const { return clusters_.size() == 1; }
@@ -69,9 +71,9 @@ private:
   void dropHopeless(Search& search, HighestWithin&& highest_within) const;
   template <typename HighestWithin>
   void measurePromising(Search& search, HighestWithin&& highest_within) const;
-  void find(const DescriptorMatrix& queries, std::size_t first, std::size_t count, float factor, Match* matches,
-            Workspace& work) const;
-  void start(Search& search, const float* histogram, float factor, Workspace& work) const;
+  void find(const DescriptorMatrix& queries, std::size_t first, std::size_t count, float factor, const float* limits,
+            Match* matches, Workspace& work) const;
+  void start(Search& search, const float* histogram, float factor, float limit, Workspace& work) const;
   void visitAll(std::size_t count, Workspace& work) const;
   void visitNearest(std::size_t count, Workspace& work) const;
   void chooseClusters(std::size_t first, std::size_t count, Workspace& work) const;

@@ -23,10 +23,14 @@ public:
 
   /// @param ambiguity at least 1; codewords within this factor of the distance of the nearest of all are kept, at most
   ///        one for each object. 1: only the nearest of all, of equally near ones the first
+  /// @param background words of no object; where one is nearer than all codewords, the ambiguity and the weights refer
+  /// to
+  ///        its distance. None: nullptr
   /// @return in the order of the queries, those of a query in the order of their objects; weights fall with the tenth
   ///         power of the distance
   /// @throws Error(incompatible) if the descriptors' sizes differ
-  std::vector<Match> match(const DescriptorMatrix& queries, double ambiguity, int threads) const;
+  std::vector<Match> match(const DescriptorMatrix& queries, double ambiguity, int threads,
+                           const NearestWord* background = nullptr) const;
 
 private:
   std::size_t objects_ = 0;  // those with codewords: others cost nothing

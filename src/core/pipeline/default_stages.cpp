@@ -79,6 +79,11 @@ double ambiguityOf(const Settings& settings) {
   return verifiesPoses(settings) ? settings.matching.ambiguity : 1.0;
 }
 
+bool hasBackground(const Codebook& codebook, const Settings& settings) {
+  const bool shot = codebook.own_descriptor.empty() && codebook.descriptor_type == DescriptorType::shot;
+  return shot && verifiesPoses(settings) && settings.matching.background;
+}
+
 bool skipsPlanes(const Settings& settings) {
   return verifiesPoses(settings) && settings.keypoints.skip_planes;
 }

@@ -44,6 +44,9 @@ bool verifiesPoses(const Settings& settings);
 /// The factor of ObjectMatcher::match() in scenes; 1: only the nearest codeword of all votes.
 double ambiguityOf(const Settings& settings);
 
+/// Whether background words compete with those of a codebook.
+bool hasBackground(const Codebook& codebook, const Settings& settings);
+
 /// Whether keypoints on planes that are larger than every object are left out.
 bool skipsPlanes(const Settings& settings);
 

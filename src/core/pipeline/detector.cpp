@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/matching/background_words.hpp"
 #include "core/matching/object_matching.hpp"
 #include "core/pipeline/default_stages.hpp"
 #include "core/pipeline/scene_description.hpp"
@@ -67,6 +68,7 @@ Detector::Detector(std::shared_ptr<const Codebook> codebook, const Settings& set
       settings_(settingsFor(*codebook_, settings)),
       stages_(completed(stages, *codebook_)),
       matcher_(std::make_shared<ObjectMatcher>(*codebook_)) {
+  findBackground();
   if (stages_.verifier) return;
   surface_verifier_ = std::make_shared<SurfaceVerifier>(codebook_);
   hough_verifier_ = std::make_shared<HoughVerifier>(*codebook_);
@@ -75,7 +77,12 @@ Detector::Detector(std::shared_ptr<const Codebook> codebook, const Settings& set
 Detector Detector::withSettings(const Settings& settings) const {
   Detector other = *this;
   other.settings_ = settingsFor(*codebook_, settings);
+  other.findBackground();
   return other;
+}
+
+void Detector::findBackground() {
+  background_ = hasBackground(*codebook_, settings_) ? backgroundWords(settings_) : nullptr;
 }
 
 const VerifierStage& Detector::verifier() const {
@@ -102,9 +109,9 @@ DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) con
   // Section 3.1, descriptors with their local reference frames R_s.
   scene.descriptors =
       clock.book(&Times::descriptors, described(*stages_.descriptors, scene.surface, scene.keypoints, settings_));
-  // Section 3.2, the nearest codewords under chi squared.
-  scene.matches =
-      clock.book(&Times::matching, matcher_->match(scene.descriptors.values, ambiguityOf(settings_), threads));
+  // Section 3.2, the nearest codewords under chi squared; beyond the paper: words of the background compete.
+  scene.matches = clock.book(
+      &Times::matching, matcher_->match(scene.descriptors.values, ambiguityOf(settings_), threads, background_.get()));
   // Eq. 1, R = R_s^T R_t, and eq. 2, votes for the centre: one Hough space for each object.
   scene.votes = clock.book(&Times::voting, castVotes(*codebook_, scene.matches, scene.descriptors, scene.keypoints));
   // Eq. 3, mean shift maxima of their density, and RANSAC; none where each vote is verified as a pose.
