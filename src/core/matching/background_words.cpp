@@ -15,8 +15,8 @@
 namespace sks {
 namespace {
 
-constexpr std::size_t most_of_view = 60;  // keypoints, also on the finest grid
-constexpr float same_distance = 0.5f;     // chi squared; the same place seen twice by a sensor differs by more
+constexpr std::size_t most_of_view = 200;  // keypoints, also on the finest grid
+constexpr float same_distance = 0.5f;      // chi squared; the same place seen twice by a sensor differs by 0.8 and more
 
 /// Evenly spread ones.
 Keypoints thinned(Keypoints keypoints) {
