@@ -11,6 +11,7 @@
 
 #include "core/matching/background_views.hpp"
 #include "core/matching/chi_squared.hpp"
+#include "core/settings/threads.hpp"
 
 namespace sks {
 namespace {
@@ -49,7 +50,7 @@ std::vector<float> described(const std::vector<Cloud>& views, const Settings& se
 }
 
 std::shared_ptr<const NearestWord> describedThings(const Settings& settings) {
-  const int threads = threadCount(settings);
+  const int threads = startableThreads(settings);
   std::vector<std::vector<float>> of_things(backgroundThings());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < of_things.size(); ++i) of_things[i] = described(backgroundViews(i), settings);

@@ -17,8 +17,8 @@ constexpr double largest_claimed = 0.5;  // of the confirming points; else a hyp
 // Of the evidence that scores 0.5: what has less is not worth the last rounds, or a search for more than what is in
 // sight.
 constexpr double plausible_fraction = 0.5, lowest_fraction = 0.3;
-constexpr int most_at_a_position = 8;  // hypotheses of one object that are looked at with all they have
-constexpr double color_doubt = 2;      // as many good hypotheses it takes to tell light from a wrong object
+constexpr int most_examined = 8;   // hypotheses of one object at one position, with all they have
+constexpr double color_doubt = 2;  // as many good hypotheses it takes to tell light from a wrong object
 
 /// Votes for the position of the hypothesis whose correspondences fit its pose.
 std::vector<std::uint32_t> inliersOf(const Codebook& codebook, const std::vector<Vote>& votes,
@@ -140,7 +140,7 @@ std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector
     examined[i] = examiner.examineAlongRays(std::move(hypothesis));
   }
   std::sort(examined.begin(), examined.end(), better);
-  examined = bestAtPositions(std::move(examined), most_at_a_position, settings);
+  examined = bestAtPositions(std::move(examined), most_examined, settings);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < examined.size(); ++i) {
     if (examined[i].hypothesis.evidence < lowest_fraction * half) continue;
