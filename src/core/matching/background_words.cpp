@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/matching/background_words.hpp"
 
+#include <algorithm>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -18,6 +19,7 @@ namespace {
 
 constexpr std::size_t most_of_view = 200;  // keypoints, also on the finest grid
 constexpr float same_distance = 0.5f;      // chi squared; the same place seen twice by a sensor differs by 0.8 and more
+constexpr int most_threads = 4;            // for a quarter of a second once
 
 /// Evenly spread ones.
 Keypoints thinned(Keypoints keypoints) {
@@ -50,7 +52,9 @@ std::vector<float> described(const std::vector<Cloud>& views, const Settings& se
 }
 
 std::shared_ptr<const NearestWord> describedThings(const Settings& settings) {
-  const int threads = startableThreads(settings);
+  Settings few = settings;
+  few.threads = std::min(threadCount(settings), most_threads);
+  const int threads = startableThreads(few);
   std::vector<std::vector<float>> of_things(backgroundThings());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < of_things.size(); ++i) of_things[i] = described(backgroundViews(i), settings);
