@@ -51,10 +51,13 @@ std::vector<float> described(const std::vector<Cloud>& views, const Settings& se
   return values;
 }
 
-std::shared_ptr<const NearestWord> describedThings(const Settings& settings) {
-  Settings few = settings;
-  few.threads = std::min(threadCount(settings), most_threads);
-  const int threads = startableThreads(few);
+/// @throws like startableThreads()
+int fewThreads(Settings settings) {
+  settings.threads = std::min(threadCount(settings), most_threads);
+  return startableThreads(settings);
+}
+
+std::shared_ptr<const NearestWord> describedThings(const Settings& settings, int threads) {
   std::vector<std::vector<float>> of_things(backgroundThings());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < of_things.size(); ++i) of_things[i] = described(backgroundViews(i), settings);
@@ -84,7 +87,7 @@ std::shared_ptr<const NearestWord> backgroundWords(const Settings& settings) {
   std::string wanted = relevant(settings);
   const std::lock_guard<std::mutex> lock(mutex);
   if (wanted != last_settings) {
-    last_words = describedThings(settings);
+    last_words = describedThings(settings, fewThreads(settings));
     last_settings = std::move(wanted);
   }
   return last_words;
