@@ -27,12 +27,14 @@ public:
   /// @param codebook of readCodebook() or train(); not null
   /// @param stages in place of this package's own; null ones are those that the settings ask for
   /// @throws Error(bad_usage) for invalid settings, Error(incompatible) naming keys and values in which `settings`
-  ///         differ from what the codebook was trained with, or its descriptors from those of the stages
+  ///         differ from what the codebook was trained with, or its descriptors from those of the stages;
+  ///         Error(bad_usage) where threads cannot be started
   Detector(std::shared_ptr<const Codebook> codebook, const Settings& settings, const Stages& stages = {});
   Detector(Codebook codebook, const Settings& settings, const Stages& stages = {});
 
-  /// The same codebook and stages with other settings; shares what was built for the codebook, so that it costs
-  /// nothing. @throws like the constructor
+  /// The same codebook and stages with other settings; shares what was built for the codebook, so that it costs next
+  /// to nothing: but where `matching.background` is switched on, its words may have to be made, in a quarter of a
+  /// second. @throws like the constructor
   Detector withSettings(const Settings& settings) const;
 
   /// @param cloud in metres, in any frame; its sensor_origin is where it was seen from
