@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::size_t most_publishers = 100;  // bags that are played have a new name each time
 constexpr double highest_rate = 1000;         // [Hz] that clouds are sent at
+constexpr double longest_delay = 60;          // [s] that messages are held up
 constexpr double always_plausible = 10;       // messages, whatever the time
 
 }  // namespace
@@ -22,10 +23,13 @@ std::uint32_t SequenceGaps::lostBefore(const std::string& publisher, std::uint32
   const double seconds = std::chrono::duration<double>(now - last.when).count();
   last.number = number;
   last.when = now;
-  if (step <= 0 || step > always_plausible + highest_rate * seconds) {
+  last.sendable = std::min(last.sendable + highest_rate * seconds, highest_rate * longest_delay);
+  if (step <= 0 || step > always_plausible + last.sendable) {
     last.step = 0;
+    last.sendable = 0;
     return 0;
   }
+  last.sendable = std::max(last.sendable - step, 0.0);
   const std::uint32_t before =
       std::exchange(last.step, last.step == 0 ? step : std::min<std::uint32_t>(last.step, step));
   return before == 0 ? 0 : std::max<std::uint32_t>(step / before, 1) - 1;

@@ -92,7 +92,7 @@ class DiagnosticsTest(unittest.TestCase):
             last = self.source.send(support.cloud_message(scene))  # by which it is seen what came before
             self.detections.wait_for_stamp(last)
             _, _, values = self.wait_for("Detection", lambda s, v: int(v["processed"]) > 0 and self.counted(v) == sent + 1,
-                                         "all accounted for")
+                                         "all %d accounted for" % (sent + 1))
             _, _, counts = self.wait_for("Input", lambda s, v: True, "the input")
             self.assertLessEqual(int(counts["of these lost on the way"]), int(counts["dropped for newer ones"]))
             self.assertGreater(int(values["processed"]), 10)
