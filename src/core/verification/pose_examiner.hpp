@@ -57,13 +57,18 @@ public:
   Examined examineRoughly(Hypothesis hypothesis) const;
   /// The evidence of an exact pose, in which the patterns of colours must agree too.
   Examined examine(Hypothesis hypothesis) const;
-  /// After some last rounds of ICP with nearest points, by all points of the stored surface.
+  /// After some last rounds of ICP with nearest points.
   Hypothesis refined(Hypothesis hypothesis) const;
   /// Of the refined pose and those in which the object's box lies as it does in this one, that with most evidence along
   /// the sensor's rays, where colours are compared with just what was seen. Only where a model is known from all sides.
   Hypothesis bestTurned(const Hypothesis& hypothesis) const;
+  /// The pose of an examined hypothesis fitted by many points of the whole model, where the model is known from all
+  /// sides; where no colours are compared, the best of those turned as in bestTurned(). Its evidence stays.
+  Hypothesis finished(const Hypothesis& hypothesis) const;
 
 private:
+  Hypothesis fitted(Hypothesis hypothesis) const;
+  std::vector<Hypothesis> turnedAround(const Hypothesis& hypothesis) const;
   double evidenceAt(Hypothesis& hypothesis, PoseEvidence& pose, std::size_t most_points,
                     CorrespondenceSearch search) const;
   SightLines sightLines(const Hypothesis& hypothesis) const;

@@ -165,6 +165,11 @@ std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector
   resolveConflicts(examined, scene.surface, float(settings.verification.support_distance));
   std::sort(examined.begin(), examined.end(), better);
 
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < examined.size(); ++i) {
+    if (isPlausible(examined[i])) examined[i].hypothesis = examiner.finished(examined[i].hypothesis);
+  }
+
   std::vector<Hypothesis> hypotheses;
   for (Examined& candidate : examined) {
     Hypothesis& hypothesis = candidate.hypothesis;
