@@ -55,13 +55,20 @@ VerifiedModels::VerifiedModels(std::shared_ptr<const Codebook> models)
   }
   for (std::uint32_t v = 0; v < surfaces.size(); ++v) {
     const std::vector<std::uint32_t>& together = surfaces[v]->views;
-    const bool has_them = together.size() > 1 && together.front() == v;
-    resting.push_back(has_them ? restingPoses(*surfaces[v]) : std::vector<RestingPose>());
+    if (together.size() < 2 || together.front() != v) continue;
+    for (const RestingPose& rest : restingPoses(*surfaces[v])) {
+      resting.push_back({codebook->views[v].object, surfaces[v].get(), rest});
+    }
   }
 }
 
-bool VerifiedModels::anyRests() const {
-  return std::any_of(resting.begin(), resting.end(), [](const auto& poses) { return !poses.empty(); });
+float VerifiedModels::stickWidth() const {
+  float thinnest = 0;
+  for (const RestingModel& model : resting) {
+    const float width = std::max(model.rest.base.width, model.rest.height);
+    if (model.rest.isStick() && (thinnest == 0 || width < thinnest)) thinnest = width;
+  }
+  return thinnest;
 }
 
 std::uint32_t nearestView(const Codebook& codebook, const ModelSurface& surface, const Eigen::Vector3f& sensor_origin,

@@ -19,18 +19,25 @@
 
 namespace sks {
 
+/// An object in one of its resting poses.
+struct RestingModel {
+  std::uint32_t object = 0;
+  const ModelSurface* surface = nullptr;
+  RestingPose rest;
+};
+
 /// What verification keeps of a codebook: made once, read by every scene.
 struct VerifiedModels {
   explicit VerifiedModels(std::shared_ptr<const Codebook> codebook);
 
-  /// Whether there are resting poses of any object.
-  bool anyRests() const;
+  /// Width of the thinnest stick among the objects [m]; 0: there is none.
+  float stickWidth() const;
 
   std::shared_ptr<const Codebook> codebook;
   std::vector<std::shared_ptr<const ModelSurface>> surfaces;  ///< in the frame of each view
   std::vector<SurfaceWeights> weights;                        ///< of the points of each view's stored surface
   std::vector<RoughSurface> rough;                            ///< of each view, for a quick look
-  std::vector<std::vector<RestingPose>> resting;  ///< of the surface of each view; of shared ones the first has them
+  std::vector<RestingModel> resting;                          ///< of the objects that are known from all sides
 };
 
 /// Of the views that a surface is made of the one that was taken most nearly from where the sensor is now.

@@ -19,6 +19,10 @@ constexpr int most_alike = 6;               // of the same height, as a can has 
 constexpr float alike = 0.03f;              // of the height
 constexpr float touching = 0.005f;          // [m] points so near to the plane touch it
 constexpr float touching_agreement = 0.9f;  // cosine between their normals and the plane's
+constexpr float top_agreement = 0.8f;       // ... and those of what faces up
+constexpr float flat = 0.01f;               // [m] of a plane face's height
+constexpr float least_of_face = 0.5f;       // of the base's rectangle is the face
+constexpr float stick_slenderness = 5;      // length over width and height
 
 /// Directions that cover the sphere evenly: a spiral.
 std::vector<Eigen::Vector3f> evenDirections(int count) {
@@ -85,7 +89,33 @@ bool isSupported(const ModelSurface& model, const Eigen::Vector3f& down, const E
   return widest_gap < float(EIGEN_PI);
 }
 
+/// What faces up.
+void describeTop(const ModelSurface& model, RestingPose& pose) {
+  std::size_t facing = 0, level = 0;
+  for (std::size_t i = 0; i < model.points.size(); ++i) {
+    if (pose.down.dot(model.normals[i]) > -top_agreement) continue;
+    pose.top += model.points[i];
+    ++facing;
+    if (pose.down.dot(model.points[i]) < pose.floor - pose.height + flat) ++level;
+  }
+  if (facing > 0) pose.top /= float(facing);
+  const float area = float(level) * model.resolution * model.resolution;
+  pose.flat_top = area > least_of_face * pose.base.length * pose.base.width;
+}
+
 }  // namespace
+
+bool RestingPose::isStick() const {
+  return base.length > stick_slenderness * std::max(base.width, height);
+}
+
+Eigen::Matrix3f RestingPose::rotation(const Eigen::Vector3f& up, const Eigen::Vector3f& axis, float angle) const {
+  Eigen::Matrix3f from, to;  // columns: down, long axis, and across
+  from << down, base.long_axis, down.cross(base.long_axis);
+  const Eigen::Vector3f to_axis = std::cos(angle) * axis - std::sin(angle) * up.cross(axis);
+  to << -up, to_axis, -up.cross(to_axis);
+  return to * from.transpose();
+}
 
 BaseExtent baseExtent(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& up) {
   const Eigen::Vector3f u = up.unitOrthogonal(), v = up.cross(u);
@@ -132,8 +162,12 @@ std::vector<RestingPose> restingPoses(const ModelSurface& model) {
     const float floor = down.dot(farthest(model.points, down)), top = down.dot(farthest(model.points, -down));
     const float height = floor - top;
     const auto isAlike = [&](const RestingPose& pose) { return std::abs(pose.height - height) < alike * height; };
-    if (std::count_if(poses.begin(), poses.end(), isAlike) < most_alike)
-      poses.push_back({down, height, floor, baseExtent(model.points, down)});
+    if (std::count_if(poses.begin(), poses.end(), isAlike) >= most_alike) continue;
+    RestingPose pose;
+    pose.down = down, pose.height = height, pose.floor = floor;
+    pose.base = baseExtent(model.points, down);
+    describeTop(model, pose);
+    poses.push_back(pose);
   }
   return poses;
 }

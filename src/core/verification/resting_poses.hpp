@@ -24,7 +24,18 @@ struct RestingPose {
   float height = 0;                                 ///< of the object along it [m]
   float floor = 0;                                  ///< down . p for the points p that touch the plane [m]
   BaseExtent base;                                  ///< of the object along the plane, model frame
+  Eigen::Vector3f top = Eigen::Vector3f::Zero();    ///< centroid of what faces up, model frame [m]
+  bool flat_top = false;                            ///< it is a plane face about as large as the object
+
+  /// Far longer than wide and high.
+  bool isStick() const;
+  /// R_scene_model where it lies on something whose normal is `up`, its long axis at an angle [rad] to `axis`, which is
+  /// at right angles to `up`.
+  Eigen::Matrix3f rotation(const Eigen::Vector3f& up, const Eigen::Vector3f& axis, float angle) const;
 };
+
+/// Rotations about the upright axis that are tried: the nearest one is at most 15 degrees off.
+constexpr int upright_rotations = 12;
 
 /// Those in which the centre of the surface lies lower than in all rotations around: an object ends in one of these
 /// (Wiegley, Rao, Goldberg 1992). The ones that it ends in from most rotations first, at most 12. Deterministic.

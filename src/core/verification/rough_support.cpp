@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include "core/verification/color_agreement.hpp"
@@ -104,6 +105,12 @@ RoughSurface::RoughSurface(const TrainingView& view, const SurfaceWeights& surfa
     shape_and_color.push_back(surface_weights.shape_and_color[i]);
     if (!view.surface_colors.empty()) colors.push_back(view.surface_colors[i]);
   }
+}
+
+double RoughSupport::scoreWithoutVotes() const {
+  constexpr int fewest = 6;
+  constexpr double prior = 0.2;  // as of votes
+  return points < fewest ? 0 : supported / (visible + prior) * std::sqrt(supported);
 }
 
 RoughSupport roughSupport(const RoughSurface& surface, const SceneView& scene, const Eigen::Isometry3d& T_scene_model) {

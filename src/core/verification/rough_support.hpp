@@ -28,6 +28,9 @@ struct RoughSupport {
   int points = 0;        ///< confirmed
   double supported = 0;  ///< their weights
   double visible = 0;    ///< weights of all that should be seen; half where nothing was measured
+
+  /// Of a pose without votes: the fraction that is confirmed, and how much that is; 0 for too few points.
+  double scoreWithoutVotes() const;
 };
 
 RoughSupport roughSupport(const RoughSurface& surface, const SceneView& scene, const Eigen::Isometry3d& T_scene_model);

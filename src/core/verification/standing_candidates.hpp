@@ -13,7 +13,7 @@ namespace sks {
 /// its resting poses. Small, flat and thin objects have too few keypoints, and these see more of the table than of the
 /// object. Only objects that are known from all sides have some. For each thing, object and resting pose the best
 /// rotation about the upright axis.
-std::vector<PoseCandidate> standingCandidates(const VerifiedModels& models, const StandingThings& standing,
+std::vector<PoseCandidate> standingCandidates(const VerifiedModels& models, const std::vector<StandingThing>& things,
                                               const SceneView& scene, int threads);
 
 }  // namespace sks

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/surface/clusters.hpp"
@@ -16,11 +17,13 @@ constexpr int fewest_of_patch = 4;         // points
 constexpr float near_plane = 0.015f;       // [m] what of a patch may be the plane, its noise, or a flat thing
 constexpr float lowest_rise = 0.003f;      // [m] of a patch above its plane, and
 constexpr float sure_deviations = 3.0f;    // ... in standard deviations of the patches of a plane
+constexpr float foot = 0.4f;               // of a thing's height; what is lower beside it is the plane's noise
 constexpr float gap = 0.015f;              // [m] things nearer to each other than this are one
 constexpr float noise_at_edges = 0.01f;    // [m] measured larger than it is
 constexpr float reach = 0.03f;             // [m] what begins higher above the plane does not stand on it
 constexpr std::size_t fewest_points = 12;  // of a thing, thinned to half of the gap
-constexpr std::size_t most_things = 40;
+constexpr std::size_t most_things = 40, most_parts = 60;
+constexpr std::size_t most_of_pile = 4000;  // points; what has more is no pile
 
 /// Row and column of a patch: whole numbers, which integers need not hold.
 using PatchCell = std::pair<float, float>;
@@ -97,21 +100,37 @@ std::pair<float, float> baseAndRise(const std::vector<Patch>& patches) {
   return {base, std::max(lowest_rise, sure_deviations * 1.4826f * medianOfHeights(heights))};
 }
 
+/// The height from which a point of a patch belongs to what raises it, and not to the plane beside it: a fraction of
+/// the highest patch around. @param raised patches, by cell
+float lowestOfThing(const std::vector<std::pair<PatchCell, float>>& raised, const PatchCell& cell, float rise) {
+  const auto heightAt = [&](const PatchCell& c) {
+    const auto found = std::lower_bound(raised.begin(), raised.end(), std::make_pair(c, 0.0f));
+    return found != raised.end() && found->first == c ? found->second : 0.0f;
+  };
+  if (heightAt(cell) <= 0) return std::numeric_limits<float>::infinity();
+  float highest = 0;
+  for (int dx = -1; dx <= 1; ++dx) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      highest = std::max(highest, heightAt({cell.first + float(dx), cell.second + float(dy)}));
+    }
+  }
+  return std::max(0.5f * rise, foot * highest);
+}
+
 /// Scene points that rise above the plane: those of patches that do, and all that are higher.
 std::vector<std::uint32_t> risingPoints(const Surface& scene, const Frame& frame, float largest) {
   const std::vector<Patch> patches = patchesAt(scene, frame);
   if (patches.empty()) return {};
   const auto [base, rise] = baseAndRise(patches);
-  std::vector<PatchCell> raised;
+  std::vector<std::pair<PatchCell, float>> raised;
   for (const Patch& patch : patches) {
-    if (patch.height() - base > rise) raised.push_back(patch.cell);
+    if (patch.height() - base > rise) raised.push_back({patch.cell, patch.height() - base});
   }
   std::vector<std::uint32_t> rising;
   for (std::uint32_t i = 0; i < scene.size(); ++i) {
     const float height = frame.heightOf(scene.point(i)) - base;
     if (height > largest + noise_at_edges || height < 0.5f * rise) continue;
-    const bool above =
-        height > near_plane || std::binary_search(raised.begin(), raised.end(), frame.patchOf(scene.point(i)));
+    const bool above = height > near_plane || height > lowestOfThing(raised, frame.patchOf(scene.point(i)), rise);
     if (above) rising.push_back(i);
   }
   return rising;
@@ -134,21 +153,26 @@ StandingThing describedThing(const std::vector<Eigen::Vector3f>& points, const F
 /// What stands on one plane.
 struct OnePlane {
   std::vector<StandingThing> things;
+  std::vector<PilePart> parts;
   std::vector<std::uint32_t> rises;  // scene points so near the plane that they could be taken for it
 };
 
-OnePlane standingOn(const LargePlane& plane, const Surface& scene, float largest) {
+OnePlane standingOn(const LargePlane& plane, const Surface& scene, float largest, float stick_width) {
   OnePlane standing;
   const Frame frame = fittedFrame(scene, plane);
   std::vector<Eigen::Vector3f> points;
-  for (const std::uint32_t i : risingPoints(scene, frame, largest)) {
+  const std::vector<std::uint32_t> rising = risingPoints(scene, frame, largest);
+  for (const std::uint32_t i : rising) {
     if (frame.heightOf(scene.point(i)) < near_plane) standing.rises.push_back(i);
     points.push_back(scene.point(i));
   }
   if (points.empty()) return standing;
   const PointGrid grid(points, gap);
-  std::vector<Eigen::Vector3f> thinned;
-  for (const std::uint32_t i : thinnedIndices(grid, 0.5 * double(gap))) thinned.push_back(grid.point(i));
+  std::vector<Eigen::Vector3f> thinned, normals;
+  for (const std::uint32_t i : thinnedIndices(grid, 0.5 * double(gap))) {
+    thinned.push_back(grid.point(i));
+    normals.push_back(scene.normal(rising[grid.source[i]]));
+  }
   for (const Indices& cluster : findClusters(thinned, gap)) {
     if (cluster.size() < fewest_points || standing.things.size() >= most_things) break;
     const std::vector<Eigen::Vector3f> members = at(thinned, cluster);
@@ -156,6 +180,11 @@ OnePlane standingOn(const LargePlane& plane, const Surface& scene, float largest
                                     [&](const Eigen::Vector3f& p) { return frame.heightOf(p) < reach; });
     const StandingThing thing = describedThing(members, frame);
     if (stands && thing.base.length <= largest + noise_at_edges) standing.things.push_back(thing);
+    if (!stands || cluster.size() > most_of_pile) continue;
+    OrientedPoints oriented;
+    for (const std::uint32_t i : cluster) oriented.add(thinned[i], normals[i]);
+    const std::vector<PilePart> parts = pileParts(oriented, 0.5f * gap, frame.up, stick_width);
+    standing.parts.insert(standing.parts.end(), parts.begin(), parts.end());
   }
   return standing;
 }
@@ -163,20 +192,22 @@ OnePlane standingOn(const LargePlane& plane, const Surface& scene, float largest
 }  // namespace
 
 StandingThings findStandingThings(const Surface& scene, const std::vector<LargePlane>& planes, float largest,
-                                  int threads) {
+                                  float stick_width, int threads) {
   std::vector<OnePlane> found(planes.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t p = 0; p < planes.size(); ++p) {
     const bool side_of_a_thing = planes[p].extent < largest;
-    if (!side_of_a_thing) found[p] = standingOn(planes[p], scene, largest);
+    if (!side_of_a_thing) found[p] = standingOn(planes[p], scene, largest, stick_width);
   }
   StandingThings standing;
   standing.rises.assign(scene.size(), 0);
   for (const OnePlane& one : found) {
     for (const std::uint32_t i : one.rises) standing.rises[i] = 1;
     standing.things.insert(standing.things.end(), one.things.begin(), one.things.end());
+    standing.parts.insert(standing.parts.end(), one.parts.begin(), one.parts.end());
   }
   if (standing.things.size() > most_things) standing.things.resize(most_things);
+  if (standing.parts.size() > most_parts) standing.parts.resize(most_parts);
   return standing;
 }
 

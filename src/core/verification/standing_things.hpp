@@ -9,6 +9,7 @@
 #include <sks_detector/stages/large_planes.hpp>
 #include <sks_detector/stages/surface.hpp>
 
+#include "core/verification/pile_parts.hpp"
 #include "core/verification/resting_poses.hpp"
 
 namespace sks {
@@ -24,6 +25,7 @@ struct StandingThing {
 
 struct StandingThings {
   std::vector<StandingThing> things;  ///< largest first
+  std::vector<PilePart> parts;        ///< of what stands there, where things touch each other
   /// For each scene point whether it rises above the plane below it, also by less than a plane's tolerance: no part of
   /// that plane.
   std::vector<char> rises;
@@ -32,7 +34,8 @@ struct StandingThings {
 /// What stands on the large planes of a scene: connected groups of points that rise from a plane, down to a few
 /// millimetres, which many points that lie side by side tell from the noise. Deterministic, for any number of threads.
 /// @param largest what is larger than this stands there as furniture [m]
+/// @param stick_width of the thinnest stick among the objects [m]; 0: there is none
 StandingThings findStandingThings(const Surface& scene, const std::vector<LargePlane>& planes, float largest,
-                                  int threads = 1);
+                                  float stick_width = 0, int threads = 1);
 
 }  // namespace sks

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/verification/color_shift.hpp"
+#include "core/verification/pile_candidates.hpp"
 #include "core/verification/pose_candidates.hpp"
 #include "core/verification/projective_refinement.hpp"
 #include "core/verification/score.hpp"
@@ -118,11 +119,14 @@ std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector
                                                    const Settings& settings, int threads) const {
   const Codebook& codebook = *models_.codebook;
   std::vector<PoseCandidate> candidates = poseCandidates(codebook, models_.rough, spaces, scene, settings, threads);
-  if (models_.anyRests()) {
-    StandingThings standing = findStandingThings(scene.surface, scene.planes, largestDiagonal(codebook), threads);
+  if (!models_.resting.empty()) {
+    StandingThings standing =
+        findStandingThings(scene.surface, scene.planes, largestDiagonal(codebook), models_.stickWidth(), threads);
     scene.rises = std::move(standing.rises);
-    const std::vector<PoseCandidate> more = standingCandidates(models_, standing, scene, threads);
-    candidates.insert(candidates.end(), more.begin(), more.end());
+    for (const auto& more : {standingCandidates(models_, standing.things, scene, threads),
+                             pileCandidates(models_, standing.parts, scene, threads)}) {
+      candidates.insert(candidates.end(), more.begin(), more.end());
+    }
   }
   const PoseExaminer examiner(models_, scene, spaces, settings);
   const double half = settings.verification.half_evidence;
