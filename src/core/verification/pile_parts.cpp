@@ -13,7 +13,8 @@
 namespace sks {
 namespace {
 
-constexpr PlaneTolerance face_tolerance{0.004f, 0.9f};  // [m] noise at 1 m; 25 degrees: normals bend at edges
+// [m] less than half of a card's height: the card on it is another face. 25 degrees: normals bend at edges.
+constexpr PlaneTolerance face_tolerance{0.0025f, 0.9f};
 constexpr std::size_t most_faces = 12, most_sticks = 12;
 constexpr std::size_t fewest_of_part = 12;  // points, of a face or a stick
 constexpr float step_in_face = 2;           // spacings between its points
@@ -28,7 +29,7 @@ constexpr float noise_beside = 0.003f;  // [m]
 constexpr float step_in_stick = 3;      // spacings without a point end it
 constexpr float shortest_stick = 5;     // length over width
 constexpr float least_filled = 0.5f;    // of a row of points along it
-constexpr float most_beside = 0.4f;     // of its points, on both sides of it
+constexpr float most_beside = 0.25f;    // of its points, on both sides of it
 
 using Positions = std::vector<Eigen::Vector3f>;
 
