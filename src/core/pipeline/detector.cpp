@@ -70,7 +70,7 @@ Detector::Detector(std::shared_ptr<const Codebook> codebook, const Settings& set
       matcher_(std::make_shared<ObjectMatcher>(*codebook_)) {
   findBackground();
   if (stages_.verifier) return;
-  surface_verifier_ = std::make_shared<SurfaceVerifier>(codebook_);
+  surface_verifier_ = std::make_shared<SurfaceVerifier>(codebook_, threadCount(settings_));
   hough_verifier_ = std::make_shared<HoughVerifier>(*codebook_);
 }
 

@@ -49,17 +49,19 @@ ModelSurface merged(const Codebook& codebook, std::vector<std::uint32_t> views) 
 
 }  // namespace
 
-std::vector<std::shared_ptr<const ModelSurface>> modelSurfaces(const Codebook& codebook) {
+std::vector<std::shared_ptr<const ModelSurface>> modelSurfaces(const Codebook& codebook, int threads) {
   std::map<std::pair<std::uint32_t, std::string>, std::vector<std::uint32_t>> frames;
   for (std::uint32_t v = 0; v < codebook.views.size(); ++v) {
     frames[{codebook.views[v].object, codebook.views[v].frameName()}].push_back(v);
   }
-  std::map<std::pair<std::uint32_t, std::string>, std::shared_ptr<const ModelSurface>> surfaces;
-  for (const auto& [frame, views] : frames) {
-    surfaces[frame] = std::make_shared<const ModelSurface>(merged(codebook, views));
+  std::vector<std::vector<std::uint32_t>> together;
+  for (auto& [frame, views] : frames) together.push_back(std::move(views));
+  std::vector<std::shared_ptr<const ModelSurface>> of_views(codebook.views.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < together.size(); ++i) {
+    const auto surface = std::make_shared<const ModelSurface>(merged(codebook, together[i]));
+    for (const std::uint32_t v : together[i]) of_views[v] = surface;
   }
-  std::vector<std::shared_ptr<const ModelSurface>> of_views;
-  for (const TrainingView& view : codebook.views) of_views.push_back(surfaces[{view.object, view.frameName()}]);
   return of_views;
 }
 

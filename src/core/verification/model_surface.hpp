@@ -21,7 +21,8 @@ struct ModelSurface {
   std::vector<std::uint32_t> views;      ///< that it is made of: indices into Codebook::views
 };
 
-/// For each view of the codebook the surface in its frame; views of one object and frame share one.
-std::vector<std::shared_ptr<const ModelSurface>> modelSurfaces(const Codebook& codebook);
+/// For each view of the codebook the surface in its frame; views of one object and frame share one. The same for any
+/// number of threads.
+std::vector<std::shared_ptr<const ModelSurface>> modelSurfaces(const Codebook& codebook, int threads = 1);
 
 }  // namespace sks

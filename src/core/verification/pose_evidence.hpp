@@ -47,6 +47,7 @@ struct SceneView {
 
 /// The weight of each point of a view's stored surface, in [0, 1]: flat parts fit many things.
 struct SurfaceWeights {
+  SurfaceWeights() = default;
   explicit SurfaceWeights(const TrainingView& view);
 
   std::vector<float> shape;            ///< how much the normals around it vary

@@ -45,20 +45,21 @@ double evidenceOf(const PoseEvidence& pose, double density) {
 
 }  // namespace
 
-VerifiedModels::VerifiedModels(std::shared_ptr<const Codebook> models)
-    : codebook(std::move(models)), surfaces(modelSurfaces(*codebook)) {
-  weights.reserve(codebook->views.size());
-  rough.reserve(codebook->views.size());
-  for (const TrainingView& view : codebook->views) {
-    weights.emplace_back(view);
-    rough.emplace_back(view, weights.back());
-  }
-  for (std::uint32_t v = 0; v < surfaces.size(); ++v) {
+VerifiedModels::VerifiedModels(std::shared_ptr<const Codebook> models, int threads)
+    : codebook(std::move(models)), surfaces(modelSurfaces(*codebook, threads)) {
+  const std::vector<TrainingView>& views = codebook->views;
+  weights.resize(views.size());
+  rough.resize(views.size());
+  std::vector<std::vector<RestingPose>> rests(views.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    weights[v] = SurfaceWeights(views[v]);
+    rough[v] = RoughSurface(views[v], weights[v]);
     const std::vector<std::uint32_t>& together = surfaces[v]->views;
-    if (together.size() < 2 || together.front() != v) continue;
-    for (const RestingPose& rest : restingPoses(*surfaces[v])) {
-      resting.push_back({codebook->views[v].object, surfaces[v].get(), rest});
-    }
+    if (together.size() > 1 && together.front() == v) rests[v] = restingPoses(*surfaces[v]);
+  }
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    for (const RestingPose& rest : rests[v]) resting.push_back({views[v].object, surfaces[v].get(), rest});
   }
 }
 

@@ -28,7 +28,8 @@ struct RestingModel {
 
 /// What verification keeps of a codebook: made once, read by every scene.
 struct VerifiedModels {
-  explicit VerifiedModels(std::shared_ptr<const Codebook> codebook);
+  /// The same for any number of threads.
+  VerifiedModels(std::shared_ptr<const Codebook> codebook, int threads);
 
   /// Width of the thinnest stick among the objects [m]; 0: there is none.
   float stickWidth() const;

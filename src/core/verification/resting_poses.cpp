@@ -35,24 +35,30 @@ std::vector<Eigen::Vector3f> evenDirections(int count) {
   return all;
 }
 
-const Eigen::Vector3f& farthest(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& direction) {
-  return *std::max_element(points.begin(), points.end(), [&](const Eigen::Vector3f& a, const Eigen::Vector3f& b) {
-    return direction.dot(a) < direction.dot(b);
-  });
+using Columns = Eigen::Matrix3Xf;  // a point each
+
+Columns columnsOf(const std::vector<Eigen::Vector3f>& points) {
+  return Eigen::Map<const Columns>(points.data()->data(), 3, Eigen::Index(points.size()));
+}
+
+Eigen::Vector3f farthest(const Columns& points, const Eigen::Vector3f& direction) {
+  Eigen::Index farthest = 0;
+  (direction.transpose() * points).maxCoeff(&farthest);
+  return points.col(farthest);
 }
 
 /// The points that can touch a plane, or nearly all of them.
-std::vector<Eigen::Vector3f> outermost(const std::vector<Eigen::Vector3f>& points) {
+Columns outermost(const Columns& points) {
   std::vector<Eigen::Vector3f> all;
   for (const Eigen::Vector3f& direction : evenDirections(2 * falls)) {
-    const Eigen::Vector3f& p = farthest(points, direction);
+    const Eigen::Vector3f p = farthest(points, direction);
     if (std::find(all.begin(), all.end(), p) == all.end()) all.push_back(p);
   }
-  return all;
+  return columnsOf(all);
 }
 
 /// Tips over the point that touches the plane, towards the centre, in ever smaller steps.
-Eigen::Vector3f fallen(Eigen::Vector3f down, const std::vector<Eigen::Vector3f>& outer, const Eigen::Vector3f& center) {
+Eigen::Vector3f fallen(Eigen::Vector3f down, const Columns& outer, const Eigen::Vector3f& center) {
   const float shrink = std::pow(last_step / first_step, 1.0f / float(steps_of_fall));
   float step = first_step;
   for (int i = 0; i < steps_of_fall; ++i, step *= shrink) {
@@ -63,25 +69,26 @@ Eigen::Vector3f fallen(Eigen::Vector3f down, const std::vector<Eigen::Vector3f>&
 }
 
 /// The direction in which the touching parts of the surface face.
-Eigen::Vector3f settled(const ModelSurface& model, const Eigen::Vector3f& down) {
-  const float floor = down.dot(farthest(model.points, down));
+Eigen::Vector3f settled(const Columns& points, const Columns& normals, const Eigen::Vector3f& down) {
+  const Eigen::RowVectorXf heights = down.transpose() * points;
+  const float floor = heights.maxCoeff();
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (std::size_t i = 0; i < model.points.size(); ++i) {
-    const bool touches =
-        down.dot(model.points[i]) > floor - touching && down.dot(model.normals[i]) > touching_agreement;
-    if (touches) sum += model.normals[i];
+  for (Eigen::Index i = 0; i < heights.size(); ++i) {
+    if (heights[i] > floor - touching && down.dot(normals.col(i)) > touching_agreement) sum += normals.col(i);
   }
   return sum.norm() > 0 ? Eigen::Vector3f(sum.normalized()) : down;
 }
 
 /// Whether the centre lies above the convex hull of what touches the plane: seen from below it, touching points lie in
 /// all directions.
-bool isSupported(const ModelSurface& model, const Eigen::Vector3f& down, const Eigen::Vector3f& center) {
-  const float floor = down.dot(farthest(model.points, down));
+bool isSupported(const Columns& points, const Eigen::Vector3f& down, const Eigen::Vector3f& center) {
+  const Eigen::RowVectorXf heights = down.transpose() * points;
+  const float floor = heights.maxCoeff();
   const Eigen::Vector3f u = down.unitOrthogonal(), v = down.cross(u);
   std::vector<float> angles;
-  for (const Eigen::Vector3f& p : model.points) {
-    if (down.dot(p) > floor - touching) angles.push_back(std::atan2(v.dot(p - center), u.dot(p - center)));
+  for (Eigen::Index i = 0; i < heights.size(); ++i) {
+    const Eigen::Vector3f p = points.col(i) - center;
+    if (heights[i] > floor - touching) angles.push_back(std::atan2(v.dot(p), u.dot(p)));
   }
   std::sort(angles.begin(), angles.end());
   float widest_gap = angles.front() + float(2 * EIGEN_PI) - angles.back();
@@ -140,12 +147,12 @@ BaseExtent baseExtent(const std::vector<Eigen::Vector3f>& points, const Eigen::V
 
 std::vector<RestingPose> restingPoses(const ModelSurface& model) {
   if (model.points.empty()) return {};
-  Eigen::Vector3f center = Eigen::Vector3f::Zero();
-  for (const Eigen::Vector3f& p : model.points) center += p / float(model.points.size());
-  const std::vector<Eigen::Vector3f> outer = outermost(model.points);
+  const Columns points = columnsOf(model.points), normals = columnsOf(model.normals);
+  const Eigen::Vector3f center = points.rowwise().mean();
+  const Columns outer = outermost(points);
   std::vector<std::pair<int, Eigen::Vector3f>> ends;  // how many falls end there, and the first of them
   for (const Eigen::Vector3f& direction : evenDirections(falls)) {
-    const Eigen::Vector3f down = settled(model, fallen(direction, outer, center));
+    const Eigen::Vector3f down = settled(points, normals, fallen(direction, outer, center));
     const auto known =
         std::find_if(ends.begin(), ends.end(), [&](const auto& end) { return end.second.dot(down) > together; });
     if (known == ends.end()) {
@@ -158,8 +165,8 @@ std::vector<RestingPose> restingPoses(const ModelSurface& model) {
   std::vector<RestingPose> poses;
   for (const auto& [count, down] : ends) {
     if (poses.size() >= most_poses || count < fewest_falls) break;
-    if (!isSupported(model, down, center)) continue;  // still on its way, along the edge of a box
-    const float floor = down.dot(farthest(model.points, down)), top = down.dot(farthest(model.points, -down));
+    if (!isSupported(points, down, center)) continue;  // still on its way, along the edge of a box
+    const float floor = down.dot(farthest(points, down)), top = down.dot(farthest(points, -down));
     const float height = floor - top;
     const auto isAlike = [&](const RestingPose& pose) { return std::abs(pose.height - height) < alike * height; };
     if (std::count_if(poses.begin(), poses.end(), isAlike) >= most_alike) continue;

@@ -15,6 +15,7 @@ namespace sks {
 /// About 80 points of a view's stored surface, spread evenly, with their weights and colours: what a quick look at a
 /// pose reads, side by side.
 struct RoughSurface {
+  RoughSurface() = default;
   RoughSurface(const TrainingView& view, const SurfaceWeights& surface_weights);
 
   SurfaceSample sample;

@@ -98,7 +98,8 @@ void resolveConflicts(std::vector<Examined>& examined, const Surface& scene, flo
 
 }  // namespace
 
-SurfaceVerifier::SurfaceVerifier(std::shared_ptr<const Codebook> codebook) : models_(std::move(codebook)) {}
+SurfaceVerifier::SurfaceVerifier(std::shared_ptr<const Codebook> codebook, int threads)
+    : models_(std::move(codebook), threads) {}
 
 std::vector<Hypothesis> SurfaceVerifier::propose(const SceneDescription& /*scene*/, const Codebook& /*codebook*/,
                                                  const Settings& /*settings*/) const {

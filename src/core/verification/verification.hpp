@@ -20,7 +20,7 @@ namespace sks {
 /// Deterministic; immutable once built; thread-safe.
 class SurfaceVerifier : public VerifierStage {
 public:
-  explicit SurfaceVerifier(std::shared_ptr<const Codebook> codebook);
+  SurfaceVerifier(std::shared_ptr<const Codebook> codebook, int threads);
 
   /// None: every vote is a proposal.
   std::vector<Hypothesis> propose(const SceneDescription& scene, const Codebook& codebook,
