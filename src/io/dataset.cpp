@@ -262,8 +262,12 @@ std::vector<TrainingSample> trainingSamples(const DataSet& data_set, const MeshS
       samples.insert(samples.end(), views.begin(), views.end());
       continue;
     }
-    const auto load = [path = entry.path, scale] { return readCloud(path, scale); };
-    samples.push_back({entry.object, entry.source, entry.kind, load, {}, {}});
+    TrainingSample sample;
+    sample.object = entry.object;
+    sample.source = entry.source;
+    sample.kind = entry.kind;
+    sample.load = [path = entry.path, scale] { return readCloud(path, scale); };
+    samples.push_back(std::move(sample));
   }
   return samples;
 }
