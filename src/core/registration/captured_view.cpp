@@ -7,6 +7,7 @@
 namespace sks {
 namespace {
 
+constexpr double row_edge = 0.008;             // [m] about the distance within which partners are looked for
 constexpr double points_per_resolution = 1.7;  // alignment wants denser points than the stored surface has
 
 }  // namespace
@@ -36,7 +37,7 @@ CapturedView::CapturedView(Surface all, const Keypoints& detected, const Descrip
   double squares = 0;
   for (const Eigen::Vector3f& p : positions) squares += (p.cast<double>() - center).squaredNorm();
   radius = std::sqrt(squares / double(std::max<std::size_t>(1, positions.size())));
-  points = PointGrid(positions, 2 * double(spacing));
+  points = PointGrid(positions, row_edge);
   for (const std::uint32_t source : points.source) {
     normals.push_back(surface.normal(sources[source]));
     if (surface.hasColor()) colors.push_back(surface.colorAt(sources[source]));

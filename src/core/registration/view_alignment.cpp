@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
@@ -14,7 +15,7 @@ namespace sks {
 namespace {
 
 constexpr double beside = 2;               // spacings: partners farther aside lie beyond the edge of a view
-constexpr double correlation = 0.005;      // [m] depth errors nearer to each other than this are no two measurements
+constexpr double correlation = 0.007;      // [m] depth errors nearer to each other than this are no two measurements
 constexpr double least_deviation = 0.0005;  // [m] no sensor measures a surface better
 constexpr double unknown_deviation = 10;   // [m or rad] of what the data say nothing about
 
@@ -24,44 +25,69 @@ struct ViewPair {
   bool from_a;  // b's plane is compared with, else a's
 };
 
-/// Partner of a position with a normal: the nearest point, if its normal agrees and it does not lie beside.
-std::size_t viewPartner(const CapturedView& view, const Eigen::Vector3f& p, const Eigen::Vector3f& n, float distance,
-                      std::vector<PointGrid::Run>& runs) {
+/// A point of a view.
+struct Partner {
+  Eigen::Vector3f point, normal;
+};
+
+/// The nearest point, if its normal agrees and it does not lie beside.
+std::optional<Partner> nearestPartner(const CapturedView& view, const Eigen::Vector3f& p, const Eigen::Vector3f& n,
+                                      float distance, std::vector<PointGrid::Run>& runs) {
   float nearest = std::numeric_limits<float>::infinity();
-  std::size_t partner = view.points.size();
+  std::size_t found = view.points.size();
   view.points.forEachNeighbor(p, distance, runs, [&](std::uint32_t j, float squared) {
     if (squared < nearest) {
       nearest = squared;
-      partner = j;
+      found = j;
     }
   });
-  if (partner == view.points.size()) return partner;
-  const Eigen::Vector3f apart = view.points.point(partner) - p, normal = view.normals[partner];
-  const float aside = (apart - normal.dot(apart) * normal).norm();
-  const bool agrees = n.dot(normal) > normal_agreement && aside <= std::max(float(beside) * view.spacing, 0.5f * distance);
-  return agrees ? partner : view.points.size();
+  if (found == view.points.size()) return std::nullopt;
+  const Partner partner{view.points.point(found), view.normals[found]};
+  const Eigen::Vector3f apart = partner.point - p;
+  const float aside = (apart - partner.normal.dot(apart) * partner.normal).norm();
+  if (n.dot(partner.normal) <= normal_agreement || aside > std::max(float(beside) * view.spacing, 0.5f * distance)) {
+    return std::nullopt;
+  }
+  return partner;
+}
+
+/// What the camera of the view saw in the direction of a position.
+std::optional<Partner> seenPartner(const CapturedView& view, const Eigen::Vector3f& p, const Eigen::Vector3f& n,
+                                   float distance) {
+  const Sighting seen = view.image.look(p, distance);
+  if (!seen.hasPoint() || n.dot(seen.cell->normal()) <= normal_agreement ||
+      (seen.cell->position() - p).squaredNorm() > distance * distance) {
+    return std::nullopt;
+  }
+  return Partner{seen.cell->position(), seen.cell->normal()};
+}
+
+/// Partners in `to` for the points of `from`. @param T pose of `from` in the frame of `to`
+template <typename Function>
+void forEachPartner(const CapturedView& from, const CapturedView& to, const Eigen::Isometry3f& T, float distance,
+                    const AlignmentRounds& rounds, std::vector<PointGrid::Run>& runs, Function&& f) {
+  for (std::size_t i = 0; i < from.points.size(); i += rounds.stride) {
+    const Eigen::Vector3f p = T * from.points.point(i), n = T.linear() * from.normals[i];
+    if (n.dot(to.surface.sensor_origin - p) <= 0) continue;
+    const std::optional<Partner> partner = rounds.partners == Partners::nearest
+                                               ? nearestPartner(to, p, n, distance, runs)
+                                               : seenPartner(to, p, n, distance);
+    if (partner) f(i, *partner);
+  }
 }
 
 void pairViews(const CapturedView& a, const CapturedView& b, const Eigen::Isometry3d& T_b_a, float distance,
-               std::size_t stride, std::vector<PointGrid::Run>& runs, std::vector<ViewPair>& pairs) {
+               const AlignmentRounds& rounds, std::vector<PointGrid::Run>& runs, std::vector<ViewPair>& pairs) {
   pairs.clear();
   const Eigen::Isometry3f T = T_b_a.cast<float>(), T_a_b = T_b_a.inverse().cast<float>();
-  for (std::size_t i = 0; i < a.points.size(); i += stride) {
-    const Eigen::Vector3f p = T * a.points.point(i), n = T.linear() * a.normals[i];
-    if (n.dot(b.surface.sensor_origin - p) <= 0) continue;
-    const std::size_t j = viewPartner(b, p, n, distance, runs);
-    if (j == b.points.size()) continue;
-    pairs.push_back({p.cast<double>(), b.points.point(j).cast<double>(), n.cast<double>(),
-                     b.normals[j].cast<double>(), true});
-  }
-  for (std::size_t i = 0; i < b.points.size(); i += stride) {
-    const Eigen::Vector3f p = T_a_b * b.points.point(i), n = T_a_b.linear() * b.normals[i];
-    if (n.dot(a.surface.sensor_origin - p) <= 0) continue;
-    const std::size_t j = viewPartner(a, p, n, distance, runs);
-    if (j == a.points.size()) continue;
-    pairs.push_back({(T * a.points.point(j)).cast<double>(), b.points.point(i).cast<double>(),
-                     (T.linear() * a.normals[j]).cast<double>(), b.normals[i].cast<double>(), false});
-  }
+  forEachPartner(a, b, T, distance, rounds, runs, [&](std::size_t i, const Partner& in_b) {
+    pairs.push_back({(T * a.points.point(i)).cast<double>(), in_b.point.cast<double>(),
+                     (T.linear() * a.normals[i]).cast<double>(), in_b.normal.cast<double>(), true});
+  });
+  forEachPartner(b, a, T_a_b, distance, rounds, runs, [&](std::size_t i, const Partner& in_a) {
+    pairs.push_back({(T * in_a.point).cast<double>(), b.points.point(i).cast<double>(),
+                     (T.linear() * in_a.normal).cast<double>(), b.normals[i].cast<double>(), false});
+  });
 }
 
 double pairResidual(const ViewPair& pair) {
@@ -116,7 +142,7 @@ Alignment alignViews(const CapturedView& a, const CapturedView& b, const Eigen::
   for (int round = 0; round <= rounds.count; ++round) {  // the last one only looks
     const double progress = std::min(1.0, double(round) / std::max(1, rounds.count - 1));
     const double distance = rounds.start_distance * std::pow(rounds.end_distance / rounds.start_distance, progress);
-    pairViews(a, b, result.T_b_a, float(distance), rounds.stride, runs, pairs);
+    pairViews(a, b, result.T_b_a, float(distance), rounds, runs, pairs);
     result.pairs = pairs.size();
     if (pairs.size() < fewest_pairs) {
       result.pairs = 0;

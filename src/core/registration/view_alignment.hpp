@@ -27,8 +27,15 @@ struct Uncertainty {
 /// @param radius turns are compared with shifts by what they move at this distance from the pivot [m]
 Uncertainty largestUncertainty(const MotionInformation& information, double radius);
 
+/// Which point of the other view is the partner of a point.
+enum class Partners {
+  along_ray,  ///< what its camera saw in that direction: fast
+  nearest     ///< the nearest point: exact
+};
+
 /// How views are paired, point by point.
 struct AlignmentRounds {
+  Partners partners = Partners::nearest;
   int count = 12;
   double start_distance = 0.02, end_distance = 0.008;  ///< farthest pairs of the first and of the last round [m]
   std::size_t stride = 1;                              ///< every so many points look for a partner

@@ -2,6 +2,7 @@
 #include "core/registration/view_graph.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -17,6 +18,7 @@ namespace {
 constexpr std::size_t most_seeds = 5;     // loops from which tying is begun; the largest result counts
 constexpr std::size_t fewest_edges = 2;   // of a tied view: what a single pair says is not believed
 constexpr int completions = 2;            // rounds in which pairs are aligned anew from the common poses
+constexpr int growths = 2;                // views that drifted poses kept out come in once these are exact
 constexpr double slack = 1.5;             // of the limit of contradictions, for poses that are not optimised yet
 constexpr std::size_t compared_points = 800;
 
@@ -98,7 +100,8 @@ std::vector<Loop> closedLoops(const RelationTable& table, const LoopLimits& limi
 struct Proposal {
   std::size_t view = 0;
   Eigen::Isometry3d T_model_view = Eigen::Isometry3d::Identity();
-  double weight = 0;  // of the relations that agree
+  double weight = 0;      // of the relations that agree
+  std::size_t edges = 0;  // how many
 };
 
 /// What was tied from one loop.
@@ -124,21 +127,29 @@ public:
       for (std::size_t view = 0; view < poses_.size(); ++view) {
         if (!poses_[view]) propose(view, proposals);
       }
-      std::stable_sort(proposals.begin(), proposals.end(),
-                       [](const Proposal& a, const Proposal& b) { return a.weight > b.weight; });
-      const auto allowed = std::find_if(proposals.begin(), proposals.end(), [&](const Proposal& p) {
-        return contradiction(p.view, p.T_model_view, slack * limits_.most_contradicted) < 0;
+      std::stable_sort(proposals.begin(), proposals.end(), [](const Proposal& a, const Proposal& b) {
+        return std::make_pair(a.edges >= fewest_edges, a.weight) > std::make_pair(b.edges >= fewest_edges, b.weight);
       });
+      const auto allowed =
+          std::find_if(proposals.begin(), proposals.end(), [&](const Proposal& p) { return isAllowed(p); });
       if (allowed == proposals.end()) return;
       poses_[allowed->view] = allowed->T_model_view;
       optimize();
     }
   }
 
+  /// Whether no tied view contradicts it, and enough of them confirm it: those that proposed it, or else those that
+  /// alignment from the proposed pose brings back to it.
+  bool isAllowed(const Proposal& p) const {
+    if (contradiction(p.view, p.T_model_view, slack * limits_.most_contradicted) >= 0) return false;
+    return p.edges >= fewest_edges || confirmations(p) >= fewest_edges;
+  }
+
   /// Aligns all pairs anew from the common poses, drops what does not fit, and optimises again.
   void complete() {
     for (int round = 0; round < completions; ++round) {
       realign();
+      dropOpenLoops();
       solve(edges_);
       dropLoose();
     }
@@ -177,6 +188,7 @@ public:
   void propose(std::size_t view, std::vector<Proposal>& proposals) const;
 
 private:
+  std::size_t confirmations(const Proposal& p) const;
   void toFrameOf(std::size_t view) {
     const Eigen::Isometry3d T_model_old = initialPose(view) * poses_[view]->inverse();
     for (auto& pose : poses_) {
@@ -191,7 +203,14 @@ private:
   std::vector<PoseEdge> agreeingEdges() const;
   void optimize() { solve(agreeingEdges()); }
   void solve(const std::vector<PoseEdge>& edges);
+  /// Three edges of three views, and by how much they do not close.
+  struct EdgeLoop {
+    std::array<std::size_t, 3> edges;
+    double shift, angle;
+  };
+  std::vector<EdgeLoop> edgeLoops() const;
   void realign();
+  void dropOpenLoops();
   void dropLoose();
 
   const RelationTable& table_;
@@ -201,6 +220,7 @@ private:
   int threads_;
   std::vector<std::optional<Eigen::Isometry3d>> poses_;
   std::vector<PoseEdge> edges_;  // after complete()
+  std::vector<double> scores_;   // of the edges
   double weight_ = 0;
   std::size_t first_ = 0;
 };
@@ -241,16 +261,28 @@ void Cluster::propose(std::size_t view, std::vector<Proposal>& proposals) const 
       const Linked*& known = agreeing[link.tied];
       if (known == nullptr || link.score > known->score) known = &link;
     }
-    if (agreeing.size() < fewest_edges) continue;
     double weight = 0, against = 0;
     for (const auto& [tied, score] : best_of_all) {
       const auto found = agreeing.find(tied);
       (found != agreeing.end() ? weight : against) += found != agreeing.end() ? found->second->score : score;
     }
     if (weight < against) continue;
-    if (weight > best.weight) best = {view, seed.T_model_view, weight};
+    if (weight > best.weight) best = {view, seed.T_model_view, weight, agreeing.size()};
   }
   if (best.weight > 0) proposals.push_back(best);
+}
+
+std::size_t Cluster::confirmations(const Proposal& p) const {
+  const std::vector<CapturedView>& views = table_.views();
+  std::vector<char> confirms(poses_.size(), 0);
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
+  for (std::size_t t = 0; t < poses_.size(); ++t) {
+    if (!poses_[t]) continue;
+    const Eigen::Isometry3d T_t_view = poses_[t]->inverse() * p.T_model_view;
+    const ViewRelation relation = relationAt(views[p.view], views[t], T_t_view, settings_, limits_);
+    confirms[t] = relation.score > 0 && relation.determined && near(T_t_view, relation.T_b_a, views[p.view].center, loops_);
+  }
+  return std::size_t(std::count(confirms.begin(), confirms.end(), 1));
 }
 
 std::vector<PoseEdge> Cluster::agreeingEdges() const {
@@ -305,6 +337,7 @@ void Cluster::realign() {
     relations[p] = relationAt(views[a], views[b], poses_[b]->inverse() * *poses_[a], settings_, limits_);
   }
   edges_.clear();
+  scores_.clear();
   weight_ = 0;
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const auto [a, b] = pairs[p];
@@ -312,6 +345,7 @@ void Cluster::realign() {
     if (!(relation.score > 0) || !relation.determined) continue;
     if (!near(poses_[b]->inverse() * *poses_[a], relation.T_b_a, views[a].center, loops_)) continue;
     edges_.push_back({a, b, relation.T_b_a, relation.information});
+    scores_.push_back(relation.score);
     weight_ += relation.score;
   }
 }
@@ -323,8 +357,11 @@ void Cluster::dropLoose() {
            near(poses_[edge.b]->inverse() * *poses_[edge.a], edge.T_b_a, table_.views()[edge.a].center, loops_);
   };
   for (std::size_t step = 0; step < poses_.size(); ++step) {  // each drops a view
-    edges_.erase(std::remove_if(edges_.begin(), edges_.end(), [&](const PoseEdge& e) { return !fits(e); }),
-                 edges_.end());
+    for (std::size_t e = edges_.size(); e-- > 0;) {
+      if (fits(edges_[e])) continue;
+      edges_.erase(edges_.begin() + std::ptrdiff_t(e));
+      scores_.erase(scores_.begin() + std::ptrdiff_t(e));
+    }
     std::vector<std::size_t> count(poses_.size(), 0);
     for (const PoseEdge& edge : edges_) {
       ++count[edge.a];
@@ -340,19 +377,45 @@ void Cluster::dropLoose() {
   }
 }
 
-LoopErrors Cluster::loopErrors() const {
-  std::map<std::pair<std::size_t, std::size_t>, Eigen::Isometry3d> T;
-  for (const PoseEdge& edge : edges_) T[{edge.a, edge.b}] = edge.T_b_a;
-  std::vector<double> shifts, angles;
-  for (const auto& [ij, T_j_i] : T) {
-    for (auto jk = T.lower_bound({ij.second, 0}); jk != T.end() && jk->first.first == ij.second; ++jk) {
-      const auto ik = T.find({ij.first, jk->first.second});
-      if (ik == T.end()) continue;
-      const Eigen::Isometry3d around = jk->second * T_j_i;
+std::vector<Cluster::EdgeLoop> Cluster::edgeLoops() const {
+  std::map<std::pair<std::size_t, std::size_t>, std::size_t> edge_of;
+  for (std::size_t e = 0; e < edges_.size(); ++e) edge_of[{edges_[e].a, edges_[e].b}] = e;
+  std::vector<EdgeLoop> loops;
+  for (const auto& [ij, first] : edge_of) {
+    for (auto jk = edge_of.lower_bound({ij.second, 0}); jk != edge_of.end() && jk->first.first == ij.second; ++jk) {
+      const auto ik = edge_of.find({ij.first, jk->first.second});
+      if (ik == edge_of.end()) continue;
+      const Eigen::Isometry3d around = edges_[jk->second].T_b_a * edges_[first].T_b_a;
+      const Eigen::Isometry3d& direct = edges_[ik->second].T_b_a;
       const Eigen::Vector3d& center = table_.views()[ij.first].center;
-      shifts.push_back((around * center - ik->second * center).norm());
-      angles.push_back(angleBetween(around, ik->second));
+      loops.push_back({{first, jk->second, ik->second}, (around * center - direct * center).norm(),
+                       angleBetween(around, direct)});
     }
+  }
+  return loops;
+}
+
+/// Of the edges of loops that do not close the weakest ones.
+void Cluster::dropOpenLoops() {
+  for (std::size_t step = edges_.size(); step > 0; --step) {  // each drops an edge
+    std::optional<std::size_t> weakest;
+    for (const EdgeLoop& loop : edgeLoops()) {
+      if (loop.shift <= loops_.shift && loop.angle <= loops_.angle) continue;
+      for (const std::size_t e : loop.edges) {
+        if (!weakest || scores_[e] < scores_[*weakest]) weakest = e;
+      }
+    }
+    if (!weakest) return;
+    edges_.erase(edges_.begin() + std::ptrdiff_t(*weakest));
+    scores_.erase(scores_.begin() + std::ptrdiff_t(*weakest));
+  }
+}
+
+LoopErrors Cluster::loopErrors() const {
+  std::vector<double> shifts, angles;
+  for (const EdgeLoop& loop : edgeLoops()) {
+    shifts.push_back(loop.shift);
+    angles.push_back(loop.angle);
   }
   LoopErrors errors;
   errors.loops = shifts.size();
@@ -404,8 +467,10 @@ TiedViews tieViews(const std::vector<CapturedView>& views, const std::vector<Vie
     if (std::any_of(tried.begin(), tried.end(), [&](const Cluster& cluster) { return cluster.holds(loop); })) continue;
     Cluster cluster(table, settings, limits, loop_limits, threads);
     cluster.begin(loop);
-    cluster.grow();
-    cluster.complete();
+    for (int round = 0; round < growths; ++round) {
+      cluster.grow();
+      cluster.complete();
+    }
     tried.push_back(cluster);
   }
   for (const Cluster& cluster : tried) {

@@ -11,8 +11,8 @@ namespace {
 // First poses come from single local reference frames, which are off by some degrees and a centimetre.
 constexpr double rough_distance = 0.015, rough_angle = 0.8;  // [m], [rad]
 constexpr double rough_color = 2;                            // of the tolerance
-constexpr std::size_t first_points = 100, rough_points = 300, last_points = 2500;  // of each view
-constexpr std::size_t most_first = 48, most_rough = 10;                            // poses
+constexpr std::size_t first_points = 100, rough_points = 300, last_points = 1500;  // of each view
+constexpr std::size_t most_first = 48, most_rough = 8;                             // poses
 constexpr double same_first_angle = 0.17, same_first_shift = 0.015;                // 10 degrees
 constexpr double same_angle = 0.052, same_shift = 0.005;                           // 3 degrees
 constexpr int turns = 24;                    // about the normal of the planes that views stand on, 15 degrees apart
@@ -124,6 +124,7 @@ std::vector<Rated> roughPoses(const CapturedView& a, const CapturedView& b, cons
   }
   poses = bestOf(std::move(poses), a.center, most_first, same_first_angle, same_first_shift);
   AlignmentRounds rounds;
+  rounds.partners = Partners::along_ray;
   rounds.stride = strideFor(a, b, rough_points);
   for (Rated& pose : poses) {
     pose.T_b_a = alignViews(a, b, pose.T_b_a, rounds).T_b_a;
@@ -137,6 +138,7 @@ std::vector<Rated> roughPoses(const CapturedView& a, const CapturedView& b, cons
 ViewRelation relationAt(const CapturedView& a, const CapturedView& b, const Eigen::Isometry3d& T_b_a,
                         const Settings& settings, const PairLimits& limits) {
   AlignmentRounds rounds;
+  rounds.count = 8;
   rounds.start_distance = rounds.end_distance;
   rounds.end_distance = 0.5 * rounds.start_distance;
   rounds.stride = strideFor(a, b, last_points);
