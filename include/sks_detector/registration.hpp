@@ -69,6 +69,16 @@ ViewRegistration registerViews(const std::vector<TrainingSample>& samples, const
                                const Progress& progress = {}, const Stages& stages = {});
 
 /// What is to be said of views that could not be tied: one text for each object that has some.
-std::vector<std::string> registrationWarnings(const ViewRegistration& registration);
+std::vector<std::string> registrationWarnings(const std::vector<RegisteredObject>& objects);
+
+/// A codebook, and the models of its objects where `training.register_views` is set.
+struct RegisteredTraining {
+  Codebook codebook;
+  std::vector<RegisteredObject> objects;
+};
+
+/// train() after registerViews(), if the settings ask for it. @throws what they throw
+RegisteredTraining trainRegistered(const std::vector<TrainingSample>& samples, const Settings& settings,
+                                   const std::string& name, const Progress& progress = {}, const Stages& stages = {});
 
 }  // namespace sks

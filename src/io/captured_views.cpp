@@ -54,7 +54,8 @@ CapturedViews::CapturedViews(std::string folder)
       file_((fs::path(folder_) / "dataset.yaml").string()),
       lock_file_((fs::path(folder_) / ".lock").string()) {}
 
-CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& view) {
+CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& view,
+                                        const std::optional<Eigen::Hyperplane<double, 3>>& plane) {
   checkFileName(object, "the object's name");
   if (object.rfind("builtin:", 0) == 0) {
     throw Error(ErrorCode::bad_usage, "the object's name '" + object + "' is refused: it starts with 'builtin:'");
@@ -81,6 +82,9 @@ CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& 
   entry["object"] = object;
   entry["cloud"] = object + "/" + name;
   entry["kind"] = "view";
+  if (plane) {
+    for (int i = 0; i < 4; ++i) entry["plane"].push_back(plane->coeffs()[i]);
+  }
   root["training"].push_back(entry);
   try {
     storeFile(file_, root);

@@ -22,11 +22,16 @@ using sks::ErrorCode;
 
 constexpr double longest_timeout = 3600;  // [s]
 
-/// The points of the one object on the dominant plane.
-std::vector<std::uint32_t> findObject(const sks::Cloud& cloud) {
+/// The one object on the dominant plane.
+struct StandingObject {
+  std::vector<std::uint32_t> points;
+  Eigen::Hyperplane<double, 3> plane;
+};
+
+StandingObject findObject(const sks::Cloud& cloud) {
   const sks::Tabletop tabletop = sks::findTabletop(cloud);
   const std::size_t count = tabletop.objects.size();
-  if (count == 1) return tabletop.objects[0];
+  if (count == 1) return {tabletop.objects[0], tabletop.plane.cast<double>()};
   const std::string plane = sks::formatted("the dominant plane (%.2f m^2, %.2f m from the camera)", tabletop.area,
                                            double(tabletop.plane.absDistance(cloud.sensor_origin)));
   if (count == 0) {
@@ -64,9 +69,9 @@ void CloudServices::captureView(const CaptureView::Request& request, CaptureView
   const std::vector<std::string> warnings = context_.captured.read().warnings;
   for (const std::string& warning : warnings) ROS_WARN_STREAM(warning);
   const sks::Cloud cloud = context_.node.read(*nextCloud(request.timeout));
-  const std::vector<std::uint32_t> object = findObject(cloud);
-  const sks::ViewQuality quality = sks::assessView(cloud, object, context_.slot.trainingSettings());
-  const auto added = context_.captured.add(request.object, sks::cutOut(cloud, object));
+  const StandingObject object = findObject(cloud);
+  const sks::ViewQuality quality = sks::assessView(cloud, object.points, context_.slot.trainingSettings());
+  const auto added = context_.captured.add(request.object, sks::cutOut(cloud, object.points), object.plane);
   context_.updateStatus();
   response.view = added.file;
   response.views = std::uint32_t(added.views);

@@ -3,6 +3,7 @@
 
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/error.hpp>
+#include <sks_detector/registration.hpp>
 #include <sks_detector/trainer.hpp>
 
 #include "core/pipeline/stopwatch.hpp"
@@ -57,9 +58,12 @@ void run(const TrainOptions& options) {
 
   Stopwatch stopwatch;
   ProgressBar bar;
-  const Codebook codebook = train(trainingSamples(data_set, options.mesh_views.sampler()), settings,
-                                  options.name.empty() ? data_set.name : options.name, bar.callback());
+  const RegisteredTraining trained =
+      trainRegistered(trainingSamples(data_set, options.mesh_views.sampler()), settings,
+                      options.name.empty() ? data_set.name : options.name, bar.callback());
+  const Codebook& codebook = trained.codebook;
   bar.clear();
+  for (const std::string& warning : registrationWarnings(trained.objects)) warn(warning);
   for (const std::string& warning : trainingWarnings(codebook)) warn(warning);
   writeCodebook(options.output, codebook);
   const double seconds = stopwatch.lap();

@@ -57,7 +57,9 @@ public:
     Surface surface = prepareSurface(cloud, settings_.surface, Orientation::sensor, threads_);
     const Keypoints keypoints = keypoints_->detect(surface, settings_);
     const Descriptors descriptors = described(*descriptors_, surface, keypoints, settings_);
-    return CapturedView(std::move(surface), keypoints, descriptors, settings_, sample.plane);
+    CapturedView view(std::move(surface), keypoints, descriptors, settings_, sample.plane);
+    view.source = sample.source;
+    return view;
   }
 
 private:
@@ -152,9 +154,16 @@ ViewRegistration registerViews(const std::vector<TrainingSample>& samples, const
   return registration;
 }
 
-std::vector<std::string> registrationWarnings(const ViewRegistration& registration) {
+RegisteredTraining trainRegistered(const std::vector<TrainingSample>& samples, const Settings& settings,
+                                   const std::string& name, const Progress& progress, const Stages& stages) {
+  if (!settings.training.register_views) return {train(samples, settings, name, progress, stages), {}};
+  ViewRegistration registration = registerViews(samples, settings, progress, stages);
+  return {train(registration.samples, settings, name, progress, stages), std::move(registration.objects)};
+}
+
+std::vector<std::string> registrationWarnings(const std::vector<RegisteredObject>& objects) {
   std::vector<std::string> warnings;
-  for (const RegisteredObject& object : registration.objects) {
+  for (const RegisteredObject& object : objects) {
     std::string text;
     for (const RegisteredView& view : object.views) {
       if (!view.T_model_view) text += "; " + view.source + ": " + view.reason;

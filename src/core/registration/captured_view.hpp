@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -30,7 +31,8 @@ struct CapturedView {
 
   bool hasColor() const { return !colors.empty(); }
 
-  Surface surface;   ///< all points
+  std::string source;  ///< name, for people
+  Surface surface;     ///< all points
   PointGrid points;  ///< of these about one for each cube of `spacing`; all have normals
   float spacing = 0;
   std::vector<Eigen::Vector3f> normals, colors;  ///< of `points`, in their order; colours as in Surface or none

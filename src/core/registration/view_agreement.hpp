@@ -20,14 +20,14 @@ struct ViewAgreement {
   double in_front = 0;   ///< through which it looked at something else
   double outside = 0;    ///< that it would have seen beside the object
   double least = 0;      ///< points of the smaller view
-  double color = 0;      ///< sum of the agreements of the colours of matched points, each in [0, 1]
-  bool colored = false;  ///< colours were compared
+  /// Share of the matched points whose colour the other camera saw there or beside it, but for what exposure moves all
+  /// colours by; 1 without colour.
+  double color = 1;
 
   /// Fraction of the points that cannot be where the pose puts them.
   double contradicted() const { return points > 0 ? (in_front + outside) / points : 1; }
   /// Part of the smaller view that both cameras saw, in [0, 1].
   double overlap() const { return least > 0 ? 0.5 * matched / least : 0; }
-  double meanColor() const { return colored && matched > 0 ? color / matched : 1; }
 };
 
 /// @param T_b_a the pose of view a in the frame of view b

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "core/registration/pose_graph.hpp"
-#include "core/settings/number_format.hpp"
 
 namespace sks {
 namespace {
@@ -18,8 +17,9 @@ namespace {
 constexpr std::size_t most_seeds = 5;     // loops from which tying is begun; the largest result counts
 constexpr std::size_t fewest_edges = 2;   // of a tied view: what a single pair says is not believed
 constexpr int completions = 2;            // rounds in which pairs are aligned anew from the common poses
+constexpr double majority = 3;             // weight of the relations that agree on a pose over that of others
 constexpr int growths = 2;                // views that drifted poses kept out come in once these are exact
-constexpr double slack = 1.5;             // of the limit of contradictions, for poses that are not optimised yet
+constexpr double slack = 1.5;             // of the limits of contradictions, for poses that are not optimised yet
 constexpr std::size_t compared_points = 800;
 
 double angleBetween(const Eigen::Isometry3d& T, const Eigen::Isometry3d& other) {
@@ -141,7 +141,7 @@ public:
   /// Whether no tied view contradicts it, and enough of them confirm it: those that proposed it, or else those that
   /// alignment from the proposed pose brings back to it.
   bool isAllowed(const Proposal& p) const {
-    if (contradiction(p.view, p.T_model_view, slack * limits_.most_contradicted) >= 0) return false;
+    if (contradiction(p.view, p.T_model_view) >= 0) return false;
     return p.edges >= fewest_edges || confirmations(p) >= fewest_edges;
   }
 
@@ -166,19 +166,21 @@ public:
 
   LoopErrors loopErrors() const;
 
-  /// The tied view that contradicts a pose most, if by more than the limit; else -1.
-  std::ptrdiff_t contradiction(std::size_t view, const Eigen::Isometry3d& T_model_view, double limit) const {
-    double worst = limit;
+  /// The tied view that contradicts a pose most, in shape or colour, if by more than the limits allow; else -1.
+  std::ptrdiff_t contradiction(std::size_t view, const Eigen::Isometry3d& T_model_view) const {
+    double worst = slack;
     std::ptrdiff_t worst_view = -1;
     const std::vector<CapturedView>& views = table_.views();
     for (std::size_t t = 0; t < poses_.size(); ++t) {
       if (!poses_[t] || t == view) continue;
       const std::size_t stride = std::max<std::size_t>(1, views[view].points.size() / compared_points);
-      const double contradicted =
-          compareViews(views[view], views[t], poses_[t]->inverse() * T_model_view, settings_.verification, stride)
-              .contradicted();
-      if (contradicted <= worst) continue;
-      worst = contradicted;
+      const ViewAgreement agreement =
+          compareViews(views[view], views[t], poses_[t]->inverse() * T_model_view, settings_.verification, stride);
+      const double discolored = agreement.overlap() >= limits_.least_overlap ? 1 - agreement.color : 0;
+      const double against = std::max(agreement.contradicted() / limits_.most_contradicted,
+                                      discolored / (1 - limits_.least_color));
+      if (against <= worst) continue;
+      worst = against;
       worst_view = std::ptrdiff_t(t);
     }
     return worst_view;
@@ -266,7 +268,7 @@ void Cluster::propose(std::size_t view, std::vector<Proposal>& proposals) const 
       const auto found = agreeing.find(tied);
       (found != agreeing.end() ? weight : against) += found != agreeing.end() ? found->second->score : score;
     }
-    if (weight < against) continue;
+    if (weight < majority * against) continue;
     if (weight > best.weight) best = {view, seed.T_model_view, weight, agreeing.size()};
   }
   if (best.weight > 0) proposals.push_back(best);
@@ -431,7 +433,7 @@ LoopErrors Cluster::loopErrors() const {
 
 /// Why a view could not be tied, in words.
 std::string reasonOf(std::size_t view, const std::optional<Cluster>& tied, const RelationTable& table,
-                     const std::vector<ViewRelation>& relations, const PairLimits& limits) {
+                     const std::vector<ViewRelation>& relations) {
   std::size_t related = 0, determined = 0;
   for (const ViewRelation& relation : relations) {
     if (relation.a != view && relation.b != view) continue;
@@ -448,9 +450,8 @@ std::string reasonOf(std::size_t view, const std::optional<Cluster>& tied, const
   std::vector<Proposal> proposals;
   tied->propose(view, proposals);
   if (proposals.empty()) return "no two views agree on its pose";
-  const std::ptrdiff_t against =
-      tied->contradiction(view, proposals.front().T_model_view, slack * limits.most_contradicted);
-  if (against >= 0) return formatted("it shows something where view %zd saw nothing", against + 1);
+  const std::ptrdiff_t against = tied->contradiction(view, proposals.front().T_model_view);
+  if (against >= 0) return "it contradicts what '" + table.views()[std::size_t(against)].source + "' saw";
   return "no two views agree on its pose closely enough";
 }
 
@@ -486,7 +487,7 @@ TiedViews tieViews(const std::vector<CapturedView>& views, const std::vector<Vie
     result.loops = best->loopErrors();
   }
   for (std::size_t v = 0; v < views.size(); ++v) {
-    if (!result.T_model_view[v]) result.reasons[v] = reasonOf(v, best, table, relations, limits);
+    if (!result.T_model_view[v]) result.reasons[v] = reasonOf(v, best, table, relations);
   }
   return result;
 }

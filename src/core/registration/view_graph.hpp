@@ -25,7 +25,7 @@ struct LoopLimits {
 /// The views of one object that were tied to each other.
 struct TiedViews {
   std::vector<std::optional<Eigen::Isometry3d>> T_model_view;  ///< of each view; none: it could not be tied
-  std::vector<std::string> reasons;                            ///< why not, in words; empty for tied ones
+  std::vector<std::string> reasons;  ///< why not, in words, other views by their `source`; empty for tied ones
   std::optional<std::size_t> first;  ///< the first tied view, which the frame refers to; none: nothing was tied
   LoopErrors loops;
 };

@@ -15,6 +15,7 @@ constexpr std::size_t first_points = 100, rough_points = 300, last_points = 1500
 constexpr std::size_t most_first = 48, most_rough = 8;                             // poses
 constexpr double same_first_angle = 0.17, same_first_shift = 0.015;                // 10 degrees
 constexpr double same_angle = 0.052, same_shift = 0.005;                           // 3 degrees
+constexpr double enough_overlap = 0.5;  // of the smaller view: more says no more of a pose that is exact
 constexpr int turns = 24;                    // about the normal of the planes that views stand on, 15 degrees apart
 constexpr double largest_levelling = 0.5;    // [rad] first poses that are tilted more are wrong
 constexpr double plane_turn_deviation = 0.01, plane_shift_deviation = 0.002;  // of a table's plane [rad], [m]
@@ -55,7 +56,8 @@ std::vector<Rated> bestOf(std::vector<Rated> poses, const Eigen::Vector3d& cente
 
 double ratingOf(const ViewAgreement& agreement) {
   const double seen = agreement.facing > 0 ? agreement.matched / agreement.facing : 0;
-  return agreement.overlap() * seen * std::max(0.0, 1 - 3 * agreement.contradicted()) * agreement.meanColor();
+  const double overlap = std::min(enough_overlap, agreement.overlap());
+  return overlap * seen * std::max(0.0, 1 - 3 * agreement.contradicted()) * agreement.color * agreement.color;
 }
 
 /// Turned and shifted by as little as lays the planes on each other; none where that is much.
@@ -155,6 +157,7 @@ ViewRelation relationAt(const CapturedView& a, const CapturedView& b, const Eige
   relation.agreement = compareViews(a, b, relation.T_b_a, settings.verification, rounds.stride);
   const bool allowed = relation.agreement.contradicted() <= limits.most_contradicted &&
                        relation.agreement.overlap() >= limits.least_overlap &&
+                       relation.agreement.color >= limits.least_color &&
                        planesAgree(relation.T_b_a, a, b, limits);
   relation.score = allowed ? ratingOf(relation.agreement) : 0;
   return relation;
