@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -59,7 +60,7 @@ struct ViewRegistration {
 
 /// Registers the captured views of each object (kind: view, neither rendered nor with a frame of their own) into one
 /// model frame. Nothing is guessed: views whose pose at least two others do not confirm, in all six directions, stay
-/// views of their own, each with the reason.
+/// views of their own, each with the reason. Which objects: `training.register_views`.
 ///
 /// The frame: where the supporting planes are known (TrainingSample::plane), z is their normal and x points to where
 /// the first tied view was taken from; else the axes are those of the first tied view's camera. The origin is that of
@@ -67,6 +68,35 @@ struct ViewRegistration {
 /// @throws what train() throws; Error(cancelled)
 ViewRegistration registerViews(const std::vector<TrainingSample>& samples, const Settings& settings,
                                const Progress& progress = {}, const Stages& stages = {});
+
+/// Registers the captured views of one object as they come: each is compared with those before it only once. Not
+/// thread-safe.
+class ObjectRegistrar {
+public:
+  /// @throws Error(bad_usage) for invalid settings
+  ObjectRegistrar(std::string object, const Settings& settings, const Stages& stages = {});
+  ~ObjectRegistrar();
+  ObjectRegistrar(ObjectRegistrar&&) noexcept;
+  ObjectRegistrar& operator=(ObjectRegistrar&&) noexcept;
+
+  /// @throws Error(bad_data) naming the view if its cloud is unusable; it is then not added
+  void add(const TrainingSample& sample);
+  /// Forgets the views from this one on.
+  void resize(std::size_t views);
+  /// Of the views, in their order.
+  const std::vector<std::string>& sources() const;
+
+  /// An earlier view that was taken from the same direction, or shows a part of the object that looks the same; none if
+  /// there is no such view.
+  std::optional<std::size_t> sameAs(std::size_t view) const;
+
+  /// Views are numbered as they were added (RegisteredView::sample).
+  RegisteredObject result() const;
+
+private:
+  struct Views;
+  std::unique_ptr<Views> views_;
+};
 
 /// What is to be said of views that could not be tied: one text for each object that has some.
 std::vector<std::string> registrationWarnings(const std::vector<RegisteredObject>& objects);

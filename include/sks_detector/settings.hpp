@@ -15,6 +15,7 @@ enum class DescriptorType { automatic, shot, cshot };
 enum class KeypointDetector { grid, iss };
 enum class SelectionRule { rank, threshold, histogram };
 enum class Hypotheses { verified, hough };
+enum class RegisterViews { automatic, on, off };
 enum class ModelOrigin { automatic, base, center };
 
 /// Names of an enumeration's values, in their order.
@@ -35,6 +36,10 @@ struct EnumNames<SelectionRule> {
 template <>
 struct EnumNames<Hypotheses> {
   static constexpr std::array<const char*, 2> value{"verified", "hough"};
+};
+template <>
+struct EnumNames<RegisterViews> {
+  static constexpr std::array<const char*, 3> value{"auto", "true", "false"};
 };
 template <>
 struct EnumNames<ModelOrigin> {
@@ -327,7 +332,7 @@ struct DetectionSettings {
 
 struct TrainingSettings {
   double surface_resolution = 0.005;
-  bool register_views = false;
+  RegisterViews register_views = RegisterViews::automatic;
   ModelOrigin origin = ModelOrigin::automatic;
 
   template <typename Self, typename Visitor>
@@ -336,9 +341,10 @@ struct TrainingSettings {
       "the surface of each training view is stored with one point for each cube with this edge; smaller: poses are "
       "verified in more detail, but codebooks are larger and detection is slower");
     v(s.register_views, "register_views",
-      "the captured views of an object are registered to each other, so that its detections have one frame and one box, "
-      "whichever view matched; views that cannot be tied to the others keep frames of their own, with a warning. "
-      "Training takes longer. false: each view has its own frame, that of its camera");
+      "whether the captured views of an object are registered to each other, so that its detections have one frame and "
+      "one box, whichever view matched; views that cannot be tied to the others keep frames of their own, with a "
+      "warning. Training takes longer. auto: objects of whose views the supporting plane is known, as ~capture_view "
+      "stores it; true: all; false: each view has its own frame, that of its camera");
     v(s.origin, "origin",
       "origin of the frame of registered views. base: below the middle of the object's box, on the plane that it stood "
       "on; center: in the middle of its box; auto: base where the plane is known, else center");

@@ -129,6 +129,40 @@ std::size_t CapturedViews::remove(const std::string& object) {
   return removed.size();
 }
 
+CapturedViews::Removed CapturedViews::removeLast(const std::string& object) {
+  checkFileName(object, "the object's name");
+  const auto none = [&] { return Error(ErrorCode::bad_usage, "no view of '" + object + "' was captured"); };
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::error_code ignored;
+  if (!fs::exists(file_, ignored)) throw none();
+  const FileLock among_processes(lock_file_);
+  YAML::Node root = loadFile(file_), rest(YAML::NodeType::Sequence);
+  std::size_t views = 0, index = 0, last = 0;
+  std::string cloud;
+  for (const YAML::Node& entry : root["training"]) {
+    if (entry["object"].Scalar() == object) {
+      ++views;
+      last = index;
+      cloud = entry["cloud"].Scalar();
+    }
+    ++index;
+  }
+  if (views == 0) throw none();
+  index = 0;
+  for (const YAML::Node& entry : root["training"]) {
+    if (index++ != last) rest.push_back(entry);
+  }
+  root["training"] = rest;
+  if (rest.size() == 0 && !root["scenes"] && !root["tests"]) {
+    fs::remove(file_, ignored);  // a data set must not be empty
+  } else {
+    storeFile(file_, root);
+  }
+  const Removed removed{(fs::path(folder_) / cloud).lexically_normal().string(), views - 1};
+  if (fs::path(removed.file).parent_path() == objectFolder(object)) fs::remove(removed.file, ignored);
+  return removed;
+}
+
 DataSet CapturedViews::read() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   return readUnlocked();

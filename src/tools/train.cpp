@@ -14,7 +14,9 @@
 #include "tools/codebook_summary.hpp"
 #include "tools/command.hpp"
 #include "tools/mesh_options.hpp"
+#include "tools/model_export.hpp"
 #include "tools/progress_bar.hpp"
+#include "tools/registration_report.hpp"
 #include "tools/table.hpp"
 
 namespace sks::tools {
@@ -24,6 +26,7 @@ struct TrainOptions {
   std::string dataset;
   std::string output;
   std::string name;
+  std::string models;  // folder
   MeshOptions meshes;
   MeshViewOptions mesh_views;
   SettingsOptions settings;
@@ -55,6 +58,11 @@ void run(const TrainOptions& options) {
   const DataSet data_set = trainingSet(options);
   checkWritable(options.output);  // before training takes its time
   options.json.check();
+  if (!options.models.empty()) {
+    std::vector<std::string> objects;
+    for (const TrainingEntry& entry : data_set.training) objects.push_back(entry.object);
+    prepareModelExport(options.models, objects);
+  }
 
   Stopwatch stopwatch;
   ProgressBar bar;
@@ -66,13 +74,22 @@ void run(const TrainOptions& options) {
   for (const std::string& warning : registrationWarnings(trained.objects)) warn(warning);
   for (const std::string& warning : trainingWarnings(codebook)) warn(warning);
   writeCodebook(options.output, codebook);
+  const std::vector<std::string> models =
+      options.models.empty() ? std::vector<std::string>()
+                             : exportModels(options.models, trained.objects, settings.training.surface_resolution);
+  if (!options.models.empty() && models.empty()) {
+    warn("no model to export: no views were registered to each other, see training.register_views");
+  }
   const double seconds = stopwatch.lap();
 
   nlohmann::json json = codebookJson(options.output, codebook);
   json["seconds"] = seconds;
+  json["models"] = models;
+  json["registration"] = registrationJson(trained.objects);
   options.json.write(json);
   if (options.json.onStdout()) return;
-  print(codebookTable(options.output, codebook) + "trained in " + fixed(seconds, 1) + " s\n");
+  print(codebookTable(options.output, codebook) + registrationText(trained.objects) + "trained in " + fixed(seconds, 1) +
+        " s\n");
 }
 
 }  // namespace
@@ -85,6 +102,11 @@ void addTrain(CLI::App& app) {
       ->type_name("FILE");
   command->add_option("--output,-o", options->output, "codebook file to write (*.sks)")->required()->type_name("FILE");
   command->add_option("--name", options->name, "name of the codebook (default: that of the data set)");
+  command
+      ->add_option("--export-models", options->models,
+                   "write the models of objects whose views were registered as PLY clouds (NAME.ply) and meshes "
+                   "(NAME_mesh.ply)")
+      ->type_name("DIR");
   options->meshes.add(*command);
   options->mesh_views.add(*command);
   options->settings.add(*command);

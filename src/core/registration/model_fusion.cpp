@@ -14,6 +14,7 @@ namespace sks {
 namespace {
 
 constexpr double cubes_per_resolution = 2;
+constexpr std::size_t fewest_contradictions = 2;  // one camera may have lost a part of the object
 constexpr int fewest_neighbors = 4;      // within `neighborhood` cubes: fewer are stray points
 constexpr float neighborhood = 2.5f;     // [cubes]
 
@@ -99,18 +100,20 @@ private:
     return surface;
   }
 
-  /// Whether more cameras say that nothing is there than have seen it.
+  /// Whether several cameras say that nothing is there and only one has seen it, or as many as have seen it looked
+  /// through it.
   bool isRemnant(const Averaged& p) const {
     const float distance = float(settings_.verification.support_distance);
-    std::size_t against = 0;
+    std::size_t through = 0, past = 0;
     for (std::size_t v = 0; v < views_.size(); ++v) {
       if (!poses_[v] || std::binary_search(p.views.begin(), p.views.end(), std::uint32_t(v))) continue;
       const Eigen::Vector3f in_view = poses_[v]->cast<float>().inverse() * p.point;
       const Sighting seen = views_[v].image.look(in_view, distance);
       const bool beside = seen.sight == Sight::unknown && views_[v].silhouette.isOutside(in_view, distance);
-      against += beside || seen.sight == Sight::in_front ? 1 : 0;
+      through += seen.sight == Sight::in_front ? 1 : 0;
+      past += beside ? 1 : 0;
     }
-    return against >= p.views.size();
+    return through >= p.views.size() || (p.views.size() == 1 && through + past >= fewest_contradictions);
   }
 
   std::vector<Averaged> withoutStrayPoints(const std::vector<Averaged>& surface) const {

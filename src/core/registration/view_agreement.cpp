@@ -7,15 +7,28 @@
 #include <limits>
 #include <vector>
 
-#include "core/verification/color_agreement.hpp"
 #include "core/verification/pose_evidence.hpp"
 
 namespace sks {
 namespace {
 
+constexpr float dark = 0.25f;            // lightness below which a surface may give no depth at all, and has no hue
+constexpr float middle_lightness = 0.6f;  // to which colours are brought
+
+/// A colour as it would be at a middling lightness: the light that falls on a surface changes from view to view, and with
+/// it L, a and b together.
+Eigen::Vector2f hueOf(const Eigen::Vector3f& color) {
+  return middle_lightness / std::max(dark, color[0]) * color.tail<2>();
+}
+
+/// Squared difference in units of CIELab.
+float squaredHueDifference(const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
+  return 120 * 120 * (a - b).squaredNorm();
+}
+
 /// A matched point with colour.
 struct ColorMatch {
-  Eigen::Vector3f color;        // of the point
+  Eigen::Vector2f color;        // of the point
   const CapturedView* into;     // the view in which it was matched
   const RangeImage::Cell* cell;  // in its image
 };
@@ -32,14 +45,15 @@ void lookFor(const CapturedView& from, const CapturedView& into, const Eigen::Is
     sum.points += 1;
     const Sighting seen = into.image.look(p, distance);
     if (seen.sight == Sight::in_front) sum.in_front += 1;
-    if (seen.sight == Sight::unknown && into.silhouette.isOutside(p, distance)) sum.outside += 1;
+    const bool may_be_lost = from.hasColor() && from.colors[i][0] < dark;
+    if (seen.sight == Sight::unknown && !may_be_lost && into.silhouette.isOutside(p, distance)) sum.outside += 1;
     if (n.dot(ray) <= grazing * ray.norm()) continue;
     if (seen.sight != Sight::occluded) sum.facing += 1;
     const bool matched = seen.hasPoint() && n.dot(seen.cell->normal()) > agreement &&
                          (seen.cell->position() - p).squaredNorm() <= distance * distance;
     if (!matched) continue;
     sum.matched += 1;
-    if (colored) colors.push_back({from.colors[i], &into, seen.cell});
+    if (colored) colors.push_back({hueOf(from.colors[i]), &into, seen.cell});
   }
 }
 
@@ -51,19 +65,19 @@ void forEachColorAround(const CapturedView& view, const RangeImage::Cell* cell, 
   for (int r = std::max(0, row - 1); r <= std::min(height - 1, row + 1); ++r) {
     for (int c = std::max(0, column - 1); c <= std::min(width - 1, column + 1); ++c) {
       const std::uint32_t point = view.image.pointAt(std::size_t(r) * std::size_t(width) + std::size_t(c));
-      if (point != no_point) f(view.surface.colorAt(point));
+      if (point != no_point) f(hueOf(view.surface.colorAt(point)));
     }
   }
 }
 
 /// By which the colours of view b differ from those of view a: the median over the matches.
-Eigen::Vector3f commonShift(const std::vector<ColorMatch>& colors, const CapturedView& b) {
+Eigen::Vector2f commonShift(const std::vector<ColorMatch>& colors, const CapturedView& b) {
   std::vector<float> values(colors.size());
-  Eigen::Vector3f shift;
-  for (int axis = 0; axis < 3; ++axis) {
+  Eigen::Vector2f shift;
+  for (int axis = 0; axis < 2; ++axis) {
     for (std::size_t i = 0; i < colors.size(); ++i) {
       const ColorMatch& match = colors[i];
-      const float seen = match.into->surface.colorAt(match.into->image.pointOf({Sight::at, match.cell}))[axis];
+      const float seen = hueOf(match.into->surface.colorAt(match.into->image.pointOf({Sight::at, match.cell})))[axis];
       values[i] = match.into == &b ? seen - match.color[axis] : match.color[axis] - seen;
     }
     const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -75,13 +89,13 @@ Eigen::Vector3f commonShift(const std::vector<ColorMatch>& colors, const Capture
 
 double colorsAgree(const std::vector<ColorMatch>& colors, const CapturedView& b, float tolerance) {
   if (colors.empty()) return 1;
-  const Eigen::Vector3f shift = commonShift(colors, b);
+  const Eigen::Vector2f shift = commonShift(colors, b);
   std::size_t agreeing = 0;
   for (const ColorMatch& match : colors) {
-    const Eigen::Vector3f expected = match.color + (match.into == &b ? 1.0f : -1.0f) * shift;
+    const Eigen::Vector2f expected = match.color + (match.into == &b ? 1.0f : -1.0f) * shift;
     float difference = std::numeric_limits<float>::infinity();
-    forEachColorAround(*match.into, match.cell, [&](const Eigen::Vector3f& seen) {
-      difference = std::min(difference, squaredColorDifference(expected, seen));
+    forEachColorAround(*match.into, match.cell, [&](const Eigen::Vector2f& seen) {
+      difference = std::min(difference, squaredHueDifference(expected, seen));
     });
     agreeing += difference < tolerance * tolerance ? 1 : 0;
   }

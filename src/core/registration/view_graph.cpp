@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 #include <tuple>
@@ -17,7 +18,10 @@ namespace {
 constexpr std::size_t most_seeds = 5;     // loops from which tying is begun; the largest result counts
 constexpr std::size_t fewest_edges = 2;   // of a tied view: what a single pair says is not believed
 constexpr int completions = 2;            // rounds in which pairs are aligned anew from the common poses
-constexpr double majority = 3;             // weight of the relations that agree on a pose over that of others
+constexpr double majority = 2;             // weight of the relations that agree on a pose over that of others
+constexpr int fewest_contradictions = 2;  // views that saw nothing there: one may have lost a part of the object
+constexpr double most_foreign = 0.06;     // of a view's points
+constexpr double noise_share = 0.015, noise_factor = 2.5;  // of contradictions, see limitsFor()
 constexpr int growths = 2;                // views that drifted poses kept out come in once these are exact
 constexpr double slack = 1.5;             // of the limits of contradictions, for poses that are not optimised yet
 constexpr std::size_t compared_points = 800;
@@ -110,7 +114,7 @@ public:
   Cluster(const RelationTable& table, const Settings& settings, const PairLimits& limits, const LoopLimits& loops,
           int threads)
       : table_(table), settings_(settings), limits_(limits), loops_(loops), threads_(threads),
-        poses_(table.views().size()) {}
+        poses_(table.views().size()), foreign_(table.views().size(), 0) {}
 
   void begin(const Loop& loop) {
     first_ = std::min({loop.i, loop.j, loop.k});
@@ -125,7 +129,7 @@ public:
     for (std::size_t step = 0; step < poses_.size(); ++step) {  // each adds a view
       std::vector<Proposal> proposals;
       for (std::size_t view = 0; view < poses_.size(); ++view) {
-        if (!poses_[view]) propose(view, proposals);
+        if (!poses_[view] && !foreign_[view]) propose(view, proposals);
       }
       std::stable_sort(proposals.begin(), proposals.end(), [](const Proposal& a, const Proposal& b) {
         return std::make_pair(a.edges >= fewest_edges, a.weight) > std::make_pair(b.edges >= fewest_edges, b.weight);
@@ -152,6 +156,8 @@ public:
       dropOpenLoops();
       solve(edges_);
       dropLoose();
+      dropForeign();
+      dropLoose();
     }
     if (size() > 0) first_ = firstTied();
   }
@@ -162,6 +168,7 @@ public:
   double weight() const { return weight_; }
   std::size_t first() const { return first_; }
   const std::vector<std::optional<Eigen::Isometry3d>>& poses() const { return poses_; }
+  bool isForeign(std::size_t view) const { return foreign_[view] != 0; }
   bool holds(const Loop& loop) const { return poses_[loop.i] && poses_[loop.j] && poses_[loop.k]; }
 
   LoopErrors loopErrors() const;
@@ -214,6 +221,8 @@ private:
   void realign();
   void dropOpenLoops();
   void dropLoose();
+  void dropForeign();
+  double foreignShare(std::size_t view) const;
 
   const RelationTable& table_;
   const Settings& settings_;
@@ -223,6 +232,7 @@ private:
   std::vector<std::optional<Eigen::Isometry3d>> poses_;
   std::vector<PoseEdge> edges_;  // after complete()
   std::vector<double> scores_;   // of the edges
+  std::vector<char> foreign_;    // of each view: dropped for what it shows besides
   double weight_ = 0;
   std::size_t first_ = 0;
 };
@@ -379,6 +389,39 @@ void Cluster::dropLoose() {
   }
 }
 
+/// Share of what a view shows that several others contradict and none confirms: a hand, or a thing that stood beside.
+double Cluster::foreignShare(std::size_t view) const {
+  const CapturedView& own = table_.views()[view];
+  const VerificationSettings& settings = settings_.verification;
+  const std::size_t stride = std::max<std::size_t>(1, own.points.size() / compared_points);
+  std::size_t points = 0, foreign = 0;
+  for (std::size_t i = 0; i < own.points.size(); i += stride) {
+    int against = 0, confirmed = 0;
+    for (std::size_t t = 0; t < poses_.size(); ++t) {
+      if (!poses_[t] || t == view) continue;
+      const CapturedView& other = table_.views()[t];
+      const Eigen::Isometry3f T = (poses_[t]->inverse() * *poses_[view]).cast<float>();
+      const Eigen::Vector3f p = T * own.points.point(i);
+      const Sighting seen = other.image.look(p, float(settings.support_distance));
+      const bool beside =
+          seen.sight == Sight::unknown && other.silhouette.isOutside(p, float(settings.support_distance));
+      against += seen.sight == Sight::in_front || beside ? 1 : 0;
+      confirmed += seen.sight == Sight::at ? 1 : 0;
+    }
+    ++points;
+    foreign += against >= fewest_contradictions && confirmed == 0 ? 1 : 0;
+  }
+  return points > 0 ? double(foreign) / double(points) : 0;
+}
+
+void Cluster::dropForeign() {
+  for (std::size_t v = 0; v < poses_.size(); ++v) {
+    if (!poses_[v] || foreignShare(v) <= most_foreign) continue;
+    poses_[v].reset();
+    foreign_[v] = 1;
+  }
+}
+
 std::vector<Cluster::EdgeLoop> Cluster::edgeLoops() const {
   std::map<std::pair<std::size_t, std::size_t>, std::size_t> edge_of;
   for (std::size_t e = 0; e < edges_.size(); ++e) edge_of[{edges_[e].a, edges_[e].b}] = e;
@@ -431,6 +474,20 @@ LoopErrors Cluster::loopErrors() const {
   return errors;
 }
 
+/// What right relations contradict is noise, and about the same for all: the better quarter of the relations shows how
+/// much that is. Where there is little of it, less is allowed.
+PairLimits limitsFor(const std::vector<ViewRelation>& relations, PairLimits limits) {
+  std::vector<double> shares;
+  for (const ViewRelation& relation : relations) {
+    if (relation.determined) shares.push_back(relation.agreement.contradicted());
+  }
+  if (shares.empty()) return limits;
+  const auto quarter = shares.begin() + std::ptrdiff_t(shares.size() / 4);
+  std::nth_element(shares.begin(), quarter, shares.end());
+  limits.most_contradicted = std::min(limits.most_contradicted, noise_share + noise_factor * *quarter);
+  return limits;
+}
+
 /// Why a view could not be tied, in words.
 std::string reasonOf(std::size_t view, const std::optional<Cluster>& tied, const RelationTable& table,
                      const std::vector<ViewRelation>& relations) {
@@ -447,6 +504,7 @@ std::string reasonOf(std::size_t view, const std::optional<Cluster>& tied, const
     return "what it shares with other views looks the same from several sides: its turn cannot be told";
   }
   if (!tied) return "no three views confirm each other";
+  if (tied->isForeign(view)) return "it shows something besides the object that the other views do not";
   std::vector<Proposal> proposals;
   tied->propose(view, proposals);
   if (proposals.empty()) return "no two views agree on its pose";
@@ -457,8 +515,13 @@ std::string reasonOf(std::size_t view, const std::optional<Cluster>& tied, const
 
 }  // namespace
 
-TiedViews tieViews(const std::vector<CapturedView>& views, const std::vector<ViewRelation>& relations,
-                   const Settings& settings, const PairLimits& limits, const LoopLimits& loop_limits, int threads) {
+TiedViews tieViews(const std::vector<CapturedView>& views, const std::vector<ViewRelation>& found,
+                   const Settings& settings, const PairLimits& widest, const LoopLimits& loop_limits, int threads) {
+  const PairLimits limits = limitsFor(found, widest);
+  std::vector<ViewRelation> relations;
+  std::copy_if(found.begin(), found.end(), std::back_inserter(relations), [&](const ViewRelation& relation) {
+    return relation.agreement.contradicted() <= limits.most_contradicted;
+  });
   const RelationTable table(views, relations);
   const std::vector<Loop> loops = closedLoops(table, loop_limits);
   std::optional<Cluster> best;

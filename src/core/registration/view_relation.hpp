@@ -31,7 +31,7 @@ struct ViewRelation {
 struct PairLimits {
   double most_contradicted = 0.04;           ///< fraction of the points
   double least_overlap = 0.2;                ///< of the smaller view
-  double least_color = 0.9;                  ///< share of the matched points whose colours agree
+  double least_color = 0.87;                 ///< share of the matched points whose colours agree
   double largest_turn_deviation = 0.0175;    ///< of a determined pair [rad], 1 degree
   double largest_shift_deviation = 0.003;    ///< [m]
   double plane_angle = 0.0524, plane_height = 0.005;  ///< between the supporting planes, 3 degrees [rad], [m]
