@@ -314,7 +314,8 @@ TEST_F(DataSetFile, WarnsOfWhatIsOdd) {
 
 TEST_F(DataSetFile, HoldsThePlanesOfViews) {
   const auto with = [&](const std::string& kind, const std::string& plane) {
-    return head + "training:\n  - {object: duck, cloud: ../views/duck0.pcd, kind: " + kind + ", plane: " + plane + "}\n";
+    return head + "training:\n  - {object: duck, cloud: ../views/duck0.pcd, kind: " + kind + ", plane: " + plane +
+           "}\n";
   };
   const auto plane = load(with("view", "[0, -0.6, -0.8, 750]")).training.at(0).plane;
   ASSERT_TRUE(plane);

@@ -34,10 +34,10 @@ struct LoopErrors {
 
 /// A captured view and its place in the model of its object.
 struct RegisteredView {
-  std::size_t sample = 0;                          ///< index into the samples
-  std::string source;                              ///< of the sample
-  std::optional<Eigen::Isometry3d> T_model_view;   ///< none: it stays a view of its own
-  std::string reason;                              ///< why it could not be tied to the others, in words; else empty
+  std::size_t sample = 0;                            ///< index into the samples
+  std::string source;                                ///< of the sample
+  std::optional<Eigen::Isometry3d> T_model_view;     ///< none: it stays a view of its own
+  std::string reason;                                ///< why it could not be tied to the others, in words; else empty
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  ///< of a tied view: where its camera was, model frame [m]
 };
 

@@ -29,7 +29,7 @@ bool isBuiltin(const std::string& path) {
 }
 
 constexpr double largest_max_distance = 100, farthest_position = 1e4;  // [m]
-constexpr double largest_normal_error = 0.01;  // of the length of a unit vector
+constexpr double largest_normal_error = 0.01;                          // of the length of a unit vector
 constexpr double most_points = 1e9;
 
 /// Reads the parts of one file; keeps what all of them need.
@@ -77,10 +77,9 @@ DataSet DataSetReader::read(const std::string& text) {
   data_set_.name = map.name("name");
   readUnits(map);
   for (const YAML::Node& item : map.list("training")) {
-    readTraining(mapOf(
-        item, "a training cloud",
-        {"object", "cloud", "kind", "plane", "symmetry", "units", "diameter", "symmetries_discrete",
-         "symmetries_continuous"}));
+    readTraining(mapOf(item, "a training cloud",
+                       {"object", "cloud", "kind", "plane", "symmetry", "units", "diameter", "symmetries_discrete",
+                        "symmetries_continuous"}));
   }
   for (const YAML::Node& item : map.list("scenes")) {
     readScene(mapOf(item, "a scene", {"name", "cloud", "objects", "ignore"}));
@@ -178,7 +177,8 @@ Eigen::Hyperplane<double, 3> DataSetReader::readPlane(const YamlMap& map, double
     map.fail("plane", "must be [a, b, c, d] with a unit vector (a, b, c): the plane's normal, towards the object");
   }
   Eigen::Hyperplane<double, 3> plane(normal.normalized(), scale * values[3]);
-  if (!(std::abs(plane.offset()) <= farthest_position)) map.fail("plane", "lies more than 10 km away: is `units` right?");
+  if (!(std::abs(plane.offset()) <= farthest_position))
+    map.fail("plane", "lies more than 10 km away: is `units` right?");
   return plane;
 }
 

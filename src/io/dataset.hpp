@@ -25,7 +25,7 @@ struct TrainingEntry {
   std::optional<Symmetry> symmetry;  ///< as declared
   /// That the object stood on, its normal towards the object; of a captured view, in its frame [m].
   std::optional<Eigen::Hyperplane<double, 3>> plane;
-  std::optional<double> scale;       ///< metres per unit of this file, where it differs; 0 of a mesh: recognised
+  std::optional<double> scale;  ///< metres per unit of this file, where it differs; 0 of a mesh: recognised
 
   std::optional<ObjectSymmetries> symmetries;  ///< all of them, where the file lists them [m]; for the BOP errors
   std::optional<double> diameter;              ///< greatest distance between two vertices, where the file states it [m]
@@ -41,9 +41,9 @@ struct GroundTruth {
   /// object's model frame.
   std::string model_frame;
   std::optional<Eigen::Isometry3d> T_scene_model;
-  std::optional<Symmetry> symmetry;                    ///< of the reference, where its training entry declares one
-  std::optional<double> visibility;                    ///< fraction of the surface that is not occluded, in [0, 1]
-  std::optional<std::size_t> points;                   ///< of the scene's cloud that lie on it
+  std::optional<Symmetry> symmetry;   ///< of the reference, where its training entry declares one
+  std::optional<double> visibility;   ///< fraction of the surface that is not occluded, in [0, 1]
+  std::optional<std::size_t> points;  ///< of the scene's cloud that lie on it
 };
 
 /// One scene with all the instances that are in it.

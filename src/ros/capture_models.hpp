@@ -15,9 +15,9 @@ namespace sks_detector {
 
 /// What the last captured view of an object adds to those before it.
 struct CaptureResult {
-  sks::RegisteredObject model;            ///< of all views so far
-  sks::ViewCoverage coverage;             ///< of the tied ones
-  std::optional<std::size_t> same;        ///< an earlier view that shows the same: its number, from 0
+  sks::RegisteredObject model;      ///< of all views so far
+  sks::ViewCoverage coverage;       ///< of the tied ones
+  std::optional<std::size_t> same;  ///< an earlier view that shows the same: its number, from 0
 };
 
 /// The models of the captured objects so far, kept so that a new view is compared with the others only. Thread-safe.

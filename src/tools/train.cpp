@@ -88,8 +88,8 @@ void run(const TrainOptions& options) {
   json["registration"] = registrationJson(trained.objects);
   options.json.write(json);
   if (options.json.onStdout()) return;
-  print(codebookTable(options.output, codebook) + registrationText(trained.objects) + "trained in " + fixed(seconds, 1) +
-        " s\n");
+  print(codebookTable(options.output, codebook) + registrationText(trained.objects) + "trained in " +
+        fixed(seconds, 1) + " s\n");
 }
 
 }  // namespace

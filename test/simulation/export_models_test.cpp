@@ -27,51 +27,50 @@ namespace {
 using test::runSks;
 using ::testing::HasSubstr;
 
-/// Views of the built-in drill, 36 degrees apart, as ~capture_view stores them.
-void captureDrill(const std::string& folder, int views) {
-  const auto mesh = std::make_shared<const Mesh>(builtinObject("drill"));
+/// Views of the built-in duck, 30 degrees apart, as ~capture_view stores them.
+void captureDuck(const std::string& folder, int views) {
+  const auto mesh = std::make_shared<const Mesh>(builtinObject("duck"));
   const auto table = std::make_shared<const Mesh>(makeBox({1, 1, 0.02f}, plain({150, 140, 130}), 0.02f));
   Renderer renderer;
   renderer.addInstance(renderer.addMesh(table), Eigen::Isometry3d(Eigen::Translation3d(0, 0, -0.01)));
   renderer.addInstance(renderer.addMesh(mesh), Eigen::Isometry3d::Identity());
   CapturedViews captured(folder);
   for (int i = 0; i < views; ++i) {
-    const double turn = i * 36 * EIGEN_PI / 180;
+    const double turn = i * 30 * EIGEN_PI / 180;
     const Eigen::Vector3d eye(0.6 * std::cos(turn), 0.6 * std::sin(turn), 0.5), target(0, 0, 0.05);
     const Cloud picture =
-        renderer.render(cameraPreset("kinect"), lookAt(eye, target, Eigen::Vector3d::UnitZ()), std::uint64_t(i), 2).cloud;
+        renderer.render(cameraPreset("kinect"), lookAt(eye, target, Eigen::Vector3d::UnitZ()), std::uint64_t(i), 2)
+            .cloud;
     const Tabletop top = findTabletop(picture);
-    captured.add("drill", cutOut(picture, top.objects.at(0)), top.plane.cast<double>());
+    captured.add("duck", cutOut(picture, top.objects.at(0)), top.plane.cast<double>());
   }
 }
 
 TEST(ExportModels, WritesCloudAndMesh) {
   const test::TemporaryFolder folder;
-  captureDrill(folder.path("captured"), 5);
-  const test::CommandRun run =
-      runSks({"train", "--dataset", folder.path("captured/dataset.yaml"), "--output", folder.path("a.sks"),
-              "--export-models", folder.path("models"), "--json", "-"});
+  captureDuck(folder.path("captured"), 5);
+  const test::CommandRun run = runSks({"train", "--dataset", folder.path("captured/dataset.yaml"), "--output",
+                                       folder.path("a.sks"), "--export-models", folder.path("models"), "--json", "-"});
   ASSERT_EQ(run.status, 0) << run.errors;
   const auto json = nlohmann::json::parse(run.output);
   ASSERT_EQ(json["registration"].size(), 1u);
-  EXPECT_EQ(json["registration"][0]["tied"], 5);
-  EXPECT_EQ(json["registration"][0]["views"][2]["pose"].size(), 16u);
+  EXPECT_GE(json["registration"][0]["tied"], 4);
+  EXPECT_EQ(json["registration"][0]["views"][1]["pose"].size(), 16u);
   EXPECT_EQ(json["models"].size(), 2u);
-  const Cloud cloud = readCloud(folder.path("models/drill.ply"));
+  const Cloud cloud = readCloud(folder.path("models/duck.ply"));
   EXPECT_EQ(cloud.size(), json["registration"][0]["points"]);
   EXPECT_TRUE(cloud.hasColor());
-  const LoadedMesh loaded = loadMesh(folder.path("models/drill_mesh.ply"), 1);
+  const LoadedMesh loaded = loadMesh(folder.path("models/duck_mesh.ply"), 1);
   EXPECT_GT(loaded.mesh.triangles.size(), 1000u);
   EXPECT_TRUE(loaded.mesh.hasColor());
-  EXPECT_LT((loaded.mesh.box().sizes() - builtinObject("drill").box().sizes()).norm(), 0.15f);
+  EXPECT_LT((loaded.mesh.box().sizes() - builtinObject("duck").box().sizes()).norm(), 0.1f);
 }
 
 TEST(ExportModels, SaysWhereThereIsNone) {
   const test::TemporaryFolder folder;
-  captureDrill(folder.path("captured"), 2);
-  const test::CommandRun run =
-      runSks({"train", "--dataset", folder.path("captured/dataset.yaml"), "--output", folder.path("a.sks"),
-              "--export-models", folder.path("models")});
+  captureDuck(folder.path("captured"), 2);
+  const test::CommandRun run = runSks({"train", "--dataset", folder.path("captured/dataset.yaml"), "--output",
+                                       folder.path("a.sks"), "--export-models", folder.path("models")});
   EXPECT_EQ(run.status, 0);
   EXPECT_THAT(run.errors, HasSubstr("two views alone cannot confirm each other"));
   EXPECT_THAT(run.errors, HasSubstr("no model to export"));

@@ -33,13 +33,13 @@ struct CapturedView {
 
   std::string source;  ///< name, for people
   Surface surface;     ///< all points
-  PointGrid points;  ///< of these about one for each cube of `spacing`; all have normals
+  PointGrid points;    ///< of these about one for each cube of `spacing`; all have normals
   float spacing = 0;
   std::vector<Eigen::Vector3f> normals, colors;  ///< of `points`, in their order; colours as in Surface or none
   std::vector<Eigen::Vector3f> keypoints;        ///< of the descriptors
   std::vector<Eigen::Matrix3f> frames;
   DescriptorMatrix descriptors;
-  std::shared_ptr<const Matcher> matcher;        ///< finds the nearest of them
+  std::shared_ptr<const Matcher> matcher;  ///< finds the nearest of them
   RangeImage image;
   ViewSilhouette silhouette;
   std::optional<Eigen::Hyperplane<double, 3>> plane;

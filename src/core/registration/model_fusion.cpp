@@ -15,8 +15,8 @@ namespace {
 
 constexpr double cubes_per_resolution = 2;
 constexpr std::size_t fewest_contradictions = 2;  // one camera may have lost a part of the object
-constexpr int fewest_neighbors = 4;      // within `neighborhood` cubes: fewer are stray points
-constexpr float neighborhood = 2.5f;     // [cubes]
+constexpr int fewest_neighbors = 4;               // within `neighborhood` cubes: fewer are stray points
+constexpr float neighborhood = 2.5f;              // [cubes]
 
 /// A point of a view in the model, and the cube in which it is averaged. Front and back of a thin part stay apart.
 struct ModelPoint {
@@ -33,7 +33,9 @@ class Fusion {
 public:
   Fusion(const std::vector<CapturedView>& views, const std::vector<std::optional<Eigen::Isometry3d>>& poses,
          const Settings& settings)
-      : views_(views), poses_(poses), settings_(settings),
+      : views_(views),
+        poses_(poses),
+        settings_(settings),
         edge_(float(settings.training.surface_resolution / cubes_per_resolution)) {}
 
   FusedModel fused() {
@@ -52,7 +54,8 @@ public:
       if (colored) model.colors.push_back(fromScaledLab({p.color[0], p.color[1], p.color[2]}));
       model.box.extend(p.point);
     }
-    if (on_plane && !model.box.isEmpty()) model.box.extend(Eigen::Vector3f(model.box.center().x(), model.box.center().y(), 0));
+    if (on_plane && !model.box.isEmpty())
+      model.box.extend(Eigen::Vector3f(model.box.center().x(), model.box.center().y(), 0));
     return model;
   }
 
@@ -140,8 +143,8 @@ private:
 
 }  // namespace
 
-FusedModel fuseViews(const std::vector<CapturedView>& views,
-                     const std::vector<std::optional<Eigen::Isometry3d>>& poses, const Settings& settings) {
+FusedModel fuseViews(const std::vector<CapturedView>& views, const std::vector<std::optional<Eigen::Isometry3d>>& poses,
+                     const Settings& settings) {
   return Fusion(views, poses, settings).fused();
 }
 

@@ -17,7 +17,7 @@ namespace sks {
 /// seen from the front counting most. What other cameras looked through, or would have seen beside the object, is
 /// dropped, and so are stray points; the box is that of the rest, down to z = 0 where views stood on a known plane.
 /// @param poses T_model_view of each view; views without one add nothing
-FusedModel fuseViews(const std::vector<CapturedView>& views,
-                     const std::vector<std::optional<Eigen::Isometry3d>>& poses, const Settings& settings);
+FusedModel fuseViews(const std::vector<CapturedView>& views, const std::vector<std::optional<Eigen::Isometry3d>>& poses,
+                     const Settings& settings);
 
 }  // namespace sks

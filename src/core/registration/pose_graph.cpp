@@ -14,11 +14,11 @@ namespace sks {
 namespace {
 
 // What an edge is off by beyond the noise of single points: the camera's calibration and smooth errors of its depth.
-constexpr double common_turn = 0.005, common_shift = 0.0007;   // [rad], [m]
-constexpr double unknown_turn = 1, unknown_shift = 0.1;        // of what an edge says nothing about
-constexpr double plane_tilt = 0.01, plane_offset = 0.002;      // of the plane of one view [rad], [m]
-constexpr double held = 1e-6;                                  // of the fixed view [rad], [m]
-constexpr double outlier = 2;                                  // standard deviations from which on edges count less
+constexpr double common_turn = 0.005, common_shift = 0.0007;  // [rad], [m]
+constexpr double unknown_turn = 1, unknown_shift = 0.1;       // of what an edge says nothing about
+constexpr double plane_tilt = 0.01, plane_offset = 0.002;     // of the plane of one view [rad], [m]
+constexpr double held = 1e-6;                                 // of the fixed view [rad], [m]
+constexpr double outlier = 2;                                 // standard deviations from which on edges count less
 constexpr int most_iterations = 50;
 
 using Motion = std::array<double, 6>;  // turn (angle-axis) about `center` of the node in the model, then shift
@@ -97,8 +97,7 @@ Matrix6d rootOf(const Matrix6d& information) {
   const Matrix6d scaled = unknown.asDiagonal() * information * unknown.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(scaled);
   const Eigen::Matrix<double, 6, 1> values = solver.eigenvalues().cwiseMax(1);
-  Matrix6d covariance =
-      solver.eigenvectors() * values.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
+  Matrix6d covariance = solver.eigenvectors() * values.cwiseInverse().asDiagonal() * solver.eigenvectors().transpose();
   covariance = (unknown.asDiagonal() * covariance * unknown.asDiagonal()).eval();
   covariance += Matrix6d(common.cwiseAbs2().asDiagonal());
   const Matrix6d counted = covariance.inverse();

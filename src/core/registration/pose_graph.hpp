@@ -25,8 +25,8 @@ struct PoseNode {
   std::optional<Eigen::Hyperplane<double, 3>> plane;  ///< that the object stood on, its normal upwards; its own frame
 };
 
-/// The poses that agree best with all edges (Ceres, robust loss), the planes lying in z = 0 of the model. Edges count as
-/// their information says, but none as better than sensors are. Deterministic.
+/// The poses that agree best with all edges (Ceres, robust loss), the planes lying in z = 0 of the model. Edges count
+/// as their information says, but none as better than sensors are. Deterministic.
 /// @param fixed index of the view whose pose stays, but for the height and tilt that planes determine
 std::vector<Eigen::Isometry3d> optimizedPoses(const std::vector<PoseNode>& nodes, const std::vector<PoseEdge>& edges,
                                               std::size_t fixed);

@@ -12,11 +12,11 @@
 namespace sks {
 namespace {
 
-constexpr float dark = 0.25f;            // lightness below which a surface may give no depth at all, and has no hue
+constexpr float dark = 0.25f;             // lightness below which a surface may give no depth at all, and has no hue
 constexpr float middle_lightness = 0.6f;  // to which colours are brought
 
-/// A colour as it would be at a middling lightness: the light that falls on a surface changes from view to view, and with
-/// it L, a and b together.
+/// A colour as it would be at a middling lightness: the light that falls on a surface changes from view to view, and
+/// with it L, a and b together.
 Eigen::Vector2f hueOf(const Eigen::Vector3f& color) {
   return middle_lightness / std::max(dark, color[0]) * color.tail<2>();
 }
@@ -28,8 +28,8 @@ float squaredHueDifference(const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
 
 /// A matched point with colour.
 struct ColorMatch {
-  Eigen::Vector2f color;        // of the point
-  const CapturedView* into;     // the view in which it was matched
+  Eigen::Vector2f color;         // of the point
+  const CapturedView* into;      // the view in which it was matched
   const RangeImage::Cell* cell;  // in its image
 };
 

@@ -14,12 +14,12 @@ namespace sks {
 /// What two cameras saw of one object, compared in a relative pose. Counts are numbers of thinned points, of both views
 /// together, each looked for in the other.
 struct ViewAgreement {
-  double points = 0;     ///< looked for
-  double facing = 0;     ///< that the other camera could have seen, as far as nothing hid them
-  double matched = 0;    ///< that it saw there, with that normal
-  double in_front = 0;   ///< through which it looked at something else
-  double outside = 0;    ///< that it would have seen beside the object
-  double least = 0;      ///< points of the smaller view
+  double points = 0;    ///< looked for
+  double facing = 0;    ///< that the other camera could have seen, as far as nothing hid them
+  double matched = 0;   ///< that it saw there, with that normal
+  double in_front = 0;  ///< through which it looked at something else
+  double outside = 0;   ///< that it would have seen beside the object
+  double least = 0;     ///< points of the smaller view
   /// Share of the matched points whose colour the other camera saw there or beside it, but for what exposure moves all
   /// colours by; 1 without colour.
   double color = 1;

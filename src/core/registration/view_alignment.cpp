@@ -14,10 +14,10 @@
 namespace sks {
 namespace {
 
-constexpr double beside = 2;               // spacings: partners farther aside lie beyond the edge of a view
-constexpr double correlation = 0.007;      // [m] depth errors nearer to each other than this are no two measurements
+constexpr double beside = 2;                // spacings: partners farther aside lie beyond the edge of a view
+constexpr double correlation = 0.007;       // [m] depth errors nearer to each other than this are no two measurements
 constexpr double least_deviation = 0.0005;  // [m] no sensor measures a surface better
-constexpr double unknown_deviation = 10;   // [m or rad] of what the data say nothing about
+constexpr double unknown_deviation = 10;    // [m or rad] of what the data say nothing about
 
 /// A point of a, mapped into b, and its partner; each with its own normal there.
 struct ViewPair {
@@ -103,7 +103,7 @@ double pairDeviation(const std::vector<ViewPair>& pairs) {
 }
 
 Matrix6d pairInformation(const std::vector<ViewPair>& pairs, const Eigen::Vector3d& pivot, double deviation,
-                       double measurements_per_pair) {
+                         double measurements_per_pair) {
   Matrix6d sum = Matrix6d::Zero();
   for (const ViewPair& pair : pairs) {
     if (std::abs(pairResidual(pair)) > 3 * deviation) continue;

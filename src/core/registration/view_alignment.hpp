@@ -14,7 +14,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 /// How well a small motion of view a against view b is known: a turn [rad] about the axes of b through `pivot`, then a
 /// shift [m] along them.
 struct MotionInformation {
-  Matrix6d matrix = Matrix6d::Zero();                ///< inverse of the covariance, as far as there is one
+  Matrix6d matrix = Matrix6d::Zero();               ///< inverse of the covariance, as far as there is one
   Eigen::Vector3d pivot = Eigen::Vector3d::Zero();  ///< [m], frame of b
 };
 

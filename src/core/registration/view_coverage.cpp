@@ -7,8 +7,8 @@
 namespace sks {
 namespace {
 
-constexpr int directions = 36;     // 10 degrees apart
-constexpr double width = 30;       // [degrees] to both sides of a view: about as far as a surface is still well seen
+constexpr int directions = 36;  // 10 degrees apart
+constexpr double width = 30;    // [degrees] to both sides of a view: about as far as a surface is still well seen
 constexpr double step = 360.0 / directions;
 
 }  // namespace

@@ -18,12 +18,12 @@ namespace {
 constexpr std::size_t most_seeds = 5;     // loops from which tying is begun; the largest result counts
 constexpr std::size_t fewest_edges = 2;   // of a tied view: what a single pair says is not believed
 constexpr int completions = 2;            // rounds in which pairs are aligned anew from the common poses
-constexpr double majority = 2;             // weight of the relations that agree on a pose over that of others
+constexpr double majority = 2;            // weight of the relations that agree on a pose over that of others
 constexpr int fewest_contradictions = 2;  // views that saw nothing there: one may have lost a part of the object
 constexpr double most_foreign = 0.06;     // of a view's points
 constexpr double noise_share = 0.015, noise_factor = 2.5;  // of contradictions, see limitsFor()
-constexpr int growths = 2;                // views that drifted poses kept out come in once these are exact
-constexpr double slack = 1.5;             // of the limits of contradictions, for poses that are not optimised yet
+constexpr int growths = 2;     // views that drifted poses kept out come in once these are exact
+constexpr double slack = 1.5;  // of the limits of contradictions, for poses that are not optimised yet
 constexpr std::size_t compared_points = 800;
 
 double angleBetween(const Eigen::Isometry3d& T, const Eigen::Isometry3d& other) {
@@ -113,8 +113,13 @@ class Cluster {
 public:
   Cluster(const RelationTable& table, const Settings& settings, const PairLimits& limits, const LoopLimits& loops,
           int threads)
-      : table_(table), settings_(settings), limits_(limits), loops_(loops), threads_(threads),
-        poses_(table.views().size()), foreign_(table.views().size(), 0) {}
+      : table_(table),
+        settings_(settings),
+        limits_(limits),
+        loops_(loops),
+        threads_(threads),
+        poses_(table.views().size()),
+        foreign_(table.views().size(), 0) {}
 
   void begin(const Loop& loop) {
     first_ = std::min({loop.i, loop.j, loop.k});
@@ -159,7 +164,22 @@ public:
       dropForeign();
       dropLoose();
     }
-    if (size() > 0) first_ = firstTied();
+  }
+
+  /// Turns the model as its frame is defined by the first tied view, which may have come in late.
+  void orient() {
+    if (size() == 0) return;
+    first_ = firstTied();
+    const CapturedView& view = table_.views()[first_];
+    const Eigen::Isometry3d T_old_view = *poses_[first_];
+    Eigen::Isometry3d T_new_old = T_old_view.inverse();
+    if (view.plane) {  // z stays
+      const Eigen::Vector3d from = T_old_view * view.surface.sensor_origin.cast<double>() - T_old_view * view.center;
+      T_new_old = Eigen::Isometry3d(Eigen::AngleAxisd(-std::atan2(from.y(), from.x()), Eigen::Vector3d::UnitZ()));
+    }
+    for (auto& pose : poses_) {
+      if (pose) pose = T_new_old * *pose;
+    }
   }
 
   std::size_t size() const {
@@ -184,8 +204,8 @@ public:
       const ViewAgreement agreement =
           compareViews(views[view], views[t], poses_[t]->inverse() * T_model_view, settings_.verification, stride);
       const double discolored = agreement.overlap() >= limits_.least_overlap ? 1 - agreement.color : 0;
-      const double against = std::max(agreement.contradicted() / limits_.most_contradicted,
-                                      discolored / (1 - limits_.least_color));
+      const double against =
+          std::max(agreement.contradicted() / limits_.most_contradicted, discolored / (1 - limits_.least_color));
       if (against <= worst) continue;
       worst = against;
       worst_view = std::ptrdiff_t(t);
@@ -292,7 +312,8 @@ std::size_t Cluster::confirmations(const Proposal& p) const {
     if (!poses_[t]) continue;
     const Eigen::Isometry3d T_t_view = poses_[t]->inverse() * p.T_model_view;
     const ViewRelation relation = relationAt(views[p.view], views[t], T_t_view, settings_, limits_);
-    confirms[t] = relation.score > 0 && relation.determined && near(T_t_view, relation.T_b_a, views[p.view].center, loops_);
+    confirms[t] =
+        relation.score > 0 && relation.determined && near(T_t_view, relation.T_b_a, views[p.view].center, loops_);
   }
   return std::size_t(std::count(confirms.begin(), confirms.end(), 1));
 }
@@ -433,8 +454,8 @@ std::vector<Cluster::EdgeLoop> Cluster::edgeLoops() const {
       const Eigen::Isometry3d around = edges_[jk->second].T_b_a * edges_[first].T_b_a;
       const Eigen::Isometry3d& direct = edges_[ik->second].T_b_a;
       const Eigen::Vector3d& center = table_.views()[ij.first].center;
-      loops.push_back({{first, jk->second, ik->second}, (around * center - direct * center).norm(),
-                       angleBetween(around, direct)});
+      loops.push_back(
+          {{first, jk->second, ik->second}, (around * center - direct * center).norm(), angleBetween(around, direct)});
     }
   }
   return loops;
@@ -535,6 +556,7 @@ TiedViews tieViews(const std::vector<CapturedView>& views, const std::vector<Vie
       cluster.grow();
       cluster.complete();
     }
+    cluster.orient();
     tried.push_back(cluster);
   }
   for (const Cluster& cluster : tried) {

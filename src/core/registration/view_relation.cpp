@@ -9,15 +9,15 @@ namespace sks {
 namespace {
 
 // First poses come from single local reference frames, which are off by some degrees and a centimetre.
-constexpr double rough_distance = 0.015, rough_angle = 0.8;  // [m], [rad]
-constexpr double rough_color = 2;                            // of the tolerance
+constexpr double rough_distance = 0.015, rough_angle = 0.8;                        // [m], [rad]
+constexpr double rough_color = 2;                                                  // of the tolerance
 constexpr std::size_t first_points = 100, rough_points = 300, last_points = 1500;  // of each view
 constexpr std::size_t most_first = 48, most_rough = 8;                             // poses
 constexpr double same_first_angle = 0.17, same_first_shift = 0.015;                // 10 degrees
 constexpr double same_angle = 0.052, same_shift = 0.005;                           // 3 degrees
-constexpr double enough_overlap = 0.5;  // of the smaller view: more says no more of a pose that is exact
-constexpr int turns = 24;                    // about the normal of the planes that views stand on, 15 degrees apart
-constexpr double largest_levelling = 0.5;    // [rad] first poses that are tilted more are wrong
+constexpr double enough_overlap = 0.5;     // of the smaller view: more says no more of a pose that is exact
+constexpr int turns = 24;                  // about the normal of the planes that views stand on, 15 degrees apart
+constexpr double largest_levelling = 0.5;  // [rad] first poses that are tilted more are wrong
 constexpr double plane_turn_deviation = 0.01, plane_shift_deviation = 0.002;  // of a table's plane [rad], [m]
 
 /// A pose and how good it looks.
@@ -109,9 +109,8 @@ std::vector<Eigen::Isometry3d> firstPoses(const CapturedView& a, const CapturedV
   for (const Match& match : a.matcher->match(b.descriptors, 1)) byKeypoints(match.word, match.descriptor);
   for (const Match& match : b.matcher->match(a.descriptors, 1)) byKeypoints(match.descriptor, match.word);
   for (int turn = 0; level && turn < turns; ++turn) {
-    const Eigen::Quaterniond upright =
-        Eigen::AngleAxisd(2 * EIGEN_PI * turn / turns, b.plane->normal()) *
-        Eigen::Quaterniond::FromTwoVectors(a.plane->normal(), b.plane->normal());
+    const Eigen::Quaterniond upright = Eigen::AngleAxisd(2 * EIGEN_PI * turn / turns, b.plane->normal()) *
+                                       Eigen::Quaterniond::FromTwoVectors(a.plane->normal(), b.plane->normal());
     add(Eigen::Isometry3d(Eigen::Translation3d(b.center) * upright * Eigen::Translation3d(-a.center)));
   }
   return poses;
@@ -157,8 +156,7 @@ ViewRelation relationAt(const CapturedView& a, const CapturedView& b, const Eige
   relation.agreement = compareViews(a, b, relation.T_b_a, settings.verification, rounds.stride);
   const bool allowed = relation.agreement.contradicted() <= limits.most_contradicted &&
                        relation.agreement.overlap() >= limits.least_overlap &&
-                       relation.agreement.color >= limits.least_color &&
-                       planesAgree(relation.T_b_a, a, b, limits);
+                       relation.agreement.color >= limits.least_color && planesAgree(relation.T_b_a, a, b, limits);
   relation.score = allowed ? ratingOf(relation.agreement) : 0;
   return relation;
 }

@@ -29,11 +29,11 @@ struct ViewRelation {
 
 /// What a relative pose of two views must be like to be believed.
 struct PairLimits {
-  double most_contradicted = 0.04;           ///< fraction of the points
-  double least_overlap = 0.2;                ///< of the smaller view
-  double least_color = 0.87;                 ///< share of the matched points whose colours agree
-  double largest_turn_deviation = 0.0175;    ///< of a determined pair [rad], 1 degree
-  double largest_shift_deviation = 0.003;    ///< [m]
+  double most_contradicted = 0.04;                    ///< fraction of the points
+  double least_overlap = 0.2;                         ///< of the smaller view
+  double least_color = 0.87;                          ///< share of the matched points whose colours agree
+  double largest_turn_deviation = 0.0175;             ///< of a determined pair [rad], 1 degree
+  double largest_shift_deviation = 0.003;             ///< [m]
   double plane_angle = 0.0524, plane_height = 0.005;  ///< between the supporting planes, 3 degrees [rad], [m]
   std::size_t most_alternatives = 4;
 };
@@ -46,6 +46,6 @@ ViewRelation relationAt(const CapturedView& a, const CapturedView& b, const Eige
 /// The relative poses of two views, best first. First poses come from single correspondences of descriptors, in both
 /// directions; they are aligned on the dense surfaces and compared in what each camera saw. Deterministic; thread-safe.
 std::vector<ViewRelation> relateViews(const CapturedView& a, const CapturedView& b, const Settings& settings,
-                                    const PairLimits& limits);
+                                      const PairLimits& limits);
 
 }  // namespace sks

@@ -40,7 +40,8 @@ ViewSilhouette::ViewSilhouette(const RangeImage& image) : projection_(image.proj
   distances_.assign(std::size_t(width_) * std::size_t(height_), std::uint8_t(widest + 1));
   for (int r = 0; r < projection_.height; ++r) {
     for (int c = 0; c < projection_.width; ++c) {
-      const bool measured = image.cells()[std::size_t(r) * std::size_t(projection_.width) + std::size_t(c)].farthest >= 0;
+      const bool measured =
+          image.cells()[std::size_t(r) * std::size_t(projection_.width) + std::size_t(c)].farthest >= 0;
       if (measured) distances_[std::size_t(r + widest) * std::size_t(width_) + std::size_t(c + widest)] = 0;
     }
   }

@@ -4,9 +4,9 @@
 #include <cstddef>
 
 #include <pcl/point_types.h>
-#include <pcl/search/impl/kdtree.hpp>
 #include <pcl/search/kdtree.h>
 #include <pcl/surface/gp3.h>
+#include <pcl/search/impl/kdtree.hpp>
 #include <pcl/surface/impl/gp3.hpp>
 
 namespace sks::tools {
