@@ -63,6 +63,8 @@ find_library(EMBREE_LIBRARY embree3)
 sks_need_library(assimp libassimp-dev ASSIMP_INCLUDE_DIR ASSIMP_LIBRARY)
 sks_need_library("Embree 3" libembree-dev EMBREE_INCLUDE_DIR EMBREE_LIBRARY)
 sks_find_package(Bullet libbullet-dev MODULE)
+sks_find_package(Ceres libceres-dev)
+set(sks_ceres_target ceres)  # the name in all releases
 
 if(SKS_BUILD_TOOLS)
   find_package(CLI11 CONFIG QUIET)

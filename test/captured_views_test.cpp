@@ -207,5 +207,32 @@ TEST_F(CapturedViewsTest, OfSeveralProcessesAreAllKept) {
   EXPECT_EQ(count["own 1"], each);
 }
 
+TEST_F(CapturedViewsTest, KeepThePlane) {
+  const Eigen::Hyperplane<double, 3> plane(Eigen::Vector3d(0, -0.6, -0.8), 0.75);
+  views_.add("mug", view(1), plane);
+  views_.add("mug", view(2));
+  const DataSet all = views_.read();
+  ASSERT_THAT(all.training, SizeIs(2));
+  ASSERT_TRUE(all.training[0].plane);
+  EXPECT_TRUE(all.training[0].plane->coeffs().isApprox(plane.coeffs(), 1e-9));
+  EXPECT_FALSE(all.training[1].plane);
+}
+
+TEST_F(CapturedViewsTest, TakeTheLastOneBack) {
+  views_.add("mug", view(1));
+  views_.add("cup", view(2));
+  views_.add("mug", view(3));
+  auto removed = views_.removeLast("mug");
+  EXPECT_EQ(removed.file, path("mug/001.pcd"));
+  EXPECT_EQ(removed.views, 1u);
+  EXPECT_FALSE(fs::exists(path("mug/001.pcd")));
+  EXPECT_THAT(views_.objects(), ElementsAre("mug", "cup"));
+  EXPECT_EQ(views_.removeLast("mug").views, 0u);
+  EXPECT_THAT(views_.objects(), ElementsAre("cup"));
+  EXPECT_THAT(errorOf(ErrorCode::bad_usage, [&] { views_.removeLast("mug"); }), HasSubstr("no view of 'mug'"));
+  views_.removeLast("cup");
+  EXPECT_THAT(views_.read().training, IsEmpty());
+}
+
 }  // namespace
 }  // namespace sks

@@ -312,6 +312,20 @@ TEST_F(DataSetFile, WarnsOfWhatIsOdd) {
   EXPECT_THAT(ignored.warnings, ElementsAre(HasSubstr("'duck' of scene 'a' is ignored although it has ground truth")));
 }
 
+TEST_F(DataSetFile, HoldsThePlanesOfViews) {
+  const auto with = [&](const std::string& kind, const std::string& plane) {
+    return head + "training:\n  - {object: duck, cloud: ../views/duck0.pcd, kind: " + kind + ", plane: " + plane +
+           "}\n";
+  };
+  const auto plane = load(with("view", "[0, -0.6, -0.8, 750]")).training.at(0).plane;
+  ASSERT_TRUE(plane);
+  EXPECT_TRUE(plane->normal().isApprox(Eigen::Vector3d(0, -0.6, -0.8), 1e-9));
+  EXPECT_NEAR(plane->offset(), 0.75, 1e-9);
+  EXPECT_THAT(refusal(with("model", "[0, 0, 1, 0]")), HasSubstr("only of use for views"));
+  EXPECT_THAT(refusal(with("view", "[0, 0, 2, 0]")), HasSubstr("unit vector"));
+  EXPECT_THAT(refusal(with("view", "[0, 0, 1]")), HasSubstr("plane"));
+}
+
 TEST_F(DataSetFile, NamesObjectsThatWereNeverTrained) {
   const DataSet data_set =
       load(head +

@@ -29,6 +29,10 @@ TEST(Surface, KeepsPointsColorsAndSensorTogether) {
 TEST(Surface, ColorsAreCieLab) {
   const auto expectLab = [](const sks::Rgb& color, float l, float a, float b) {  // published values for D65
     const auto lab = sks::toScaledLab(color);
+    const sks::Rgb back = sks::fromScaledLab(lab);
+    EXPECT_NEAR(back.r, color.r, 1);
+    EXPECT_NEAR(back.g, color.g, 1);
+    EXPECT_NEAR(back.b, color.b, 1);
     EXPECT_NEAR(lab[0] * 100, l, 0.1);
     EXPECT_NEAR(lab[1] * 120, a, 0.1);
     EXPECT_NEAR(lab[2] * 120, b, 0.1);

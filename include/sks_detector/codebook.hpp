@@ -39,6 +39,8 @@ struct TrainingView {
   Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();  ///< [m], model frame
   Eigen::Vector3f box_min = Eigen::Vector3f::Zero();        ///< corners of the axis-aligned bounding box [m]
   Eigen::Vector3f box_max = Eigen::Vector3f::Zero();
+  /// Of a captured view that was registered: pose of the frame of its cloud in the model frame.
+  std::optional<Eigen::Isometry3d> T_model_source;
   std::vector<Eigen::Vector3f> surface_points;   ///< thinned surface [m], model frame
   std::vector<Eigen::Vector3f> surface_normals;  ///< its unit normals
   std::vector<Eigen::Vector3f> surface_colors;   ///< its colours, as in Surface; empty without colour

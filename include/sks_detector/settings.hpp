@@ -15,6 +15,8 @@ enum class DescriptorType { automatic, shot, cshot };
 enum class KeypointDetector { grid, iss };
 enum class SelectionRule { rank, threshold, histogram };
 enum class Hypotheses { verified, hough };
+enum class RegisterViews { automatic, on, off };
+enum class ModelOrigin { automatic, base, center };
 
 /// Names of an enumeration's values, in their order.
 template <typename Enum>
@@ -34,6 +36,14 @@ struct EnumNames<SelectionRule> {
 template <>
 struct EnumNames<Hypotheses> {
   static constexpr std::array<const char*, 2> value{"verified", "hough"};
+};
+template <>
+struct EnumNames<RegisterViews> {
+  static constexpr std::array<const char*, 3> value{"auto", "true", "false"};
+};
+template <>
+struct EnumNames<ModelOrigin> {
+  static constexpr std::array<const char*, 3> value{"auto", "base", "center"};
 };
 
 /// Closed range of a number.
@@ -322,12 +332,22 @@ struct DetectionSettings {
 
 struct TrainingSettings {
   double surface_resolution = 0.005;
+  RegisterViews register_views = RegisterViews::automatic;
+  ModelOrigin origin = ModelOrigin::automatic;
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
     v(s.surface_resolution, "surface_resolution", Range{0.001, 0.1}, "m",
       "the surface of each training view is stored with one point for each cube with this edge; smaller: poses are "
       "verified in more detail, but codebooks are larger and detection is slower");
+    v(s.register_views, "register_views",
+      "whether the captured views of an object are registered to each other, so that its detections have one frame and "
+      "one box, whichever view matched; views that cannot be tied to the others keep frames of their own, with a "
+      "warning. Training takes longer. auto: objects of whose views the supporting plane is known, as ~capture_view "
+      "stores it; true: all; false: each view has its own frame, that of its camera");
+    v(s.origin, "origin",
+      "origin of the frame of registered views. base: below the middle of the object's box, on the plane that it stood "
+      "on; center: in the middle of its box; auto: base where the plane is known, else center");
   }
 };
 

@@ -26,6 +26,10 @@ struct TrainingSample {
   std::string frame;                       ///< of views that are registered to each other: name of their common frame
   std::optional<Eigen::AlignedBox3f> box;  ///< of the whole object [m]; else the box of the cloud is taken
   bool rendered = false;                   ///< from a mesh, whose colours are not those of the camera that detects
+  /// Of a view that was registered: pose of the cloud's frame in the model frame. The box is in the model frame.
+  std::optional<Eigen::Isometry3d> T_model_source = std::nullopt;
+  /// Of a captured view: the plane that the object stood on, its normal towards the object; frame of the cloud [m].
+  std::optional<Eigen::Hyperplane<double, 3>> plane = std::nullopt;
 };
 
 /// Section 3.1: normals, grid keypoints without selection, descriptors, one codeword each. Deterministic, for any

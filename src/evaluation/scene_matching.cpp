@@ -77,6 +77,8 @@ std::vector<MatchedDetection> matchScene(const Scene& scene, const std::vector<D
       if (truth.T_scene_reference && !truth.reference.empty() && truth.reference == detection.view) {
         result.pose_error =
             poseError(detection.T_scene_model, *truth.T_scene_reference, truth.position, truth.symmetry);
+      } else if (truth.T_scene_model && truth.model_frame == detection.view) {
+        result.pose_error = poseError(detection.T_scene_model, *truth.T_scene_model, truth.position);
       }
     }
     matched.push_back(std::move(result));

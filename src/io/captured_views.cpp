@@ -54,7 +54,8 @@ CapturedViews::CapturedViews(std::string folder)
       file_((fs::path(folder_) / "dataset.yaml").string()),
       lock_file_((fs::path(folder_) / ".lock").string()) {}
 
-CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& view) {
+CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& view,
+                                        const std::optional<Eigen::Hyperplane<double, 3>>& plane) {
   checkFileName(object, "the object's name");
   if (object.rfind("builtin:", 0) == 0) {
     throw Error(ErrorCode::bad_usage, "the object's name '" + object + "' is refused: it starts with 'builtin:'");
@@ -81,6 +82,9 @@ CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& 
   entry["object"] = object;
   entry["cloud"] = object + "/" + name;
   entry["kind"] = "view";
+  if (plane) {
+    for (int i = 0; i < 4; ++i) entry["plane"].push_back(plane->coeffs()[i]);
+  }
   root["training"].push_back(entry);
   try {
     storeFile(file_, root);
@@ -123,6 +127,40 @@ std::size_t CapturedViews::remove(const std::string& object) {
   }
   fs::remove(folder, ignored);  // fails, as it should, if something is left in it
   return removed.size();
+}
+
+CapturedViews::Removed CapturedViews::removeLast(const std::string& object) {
+  checkFileName(object, "the object's name");
+  const auto none = [&] { return Error(ErrorCode::bad_usage, "no view of '" + object + "' was captured"); };
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::error_code ignored;
+  if (!fs::exists(file_, ignored)) throw none();
+  const FileLock among_processes(lock_file_);
+  YAML::Node root = loadFile(file_), rest(YAML::NodeType::Sequence);
+  std::size_t views = 0, index = 0, last = 0;
+  std::string cloud;
+  for (const YAML::Node& entry : root["training"]) {
+    if (entry["object"].Scalar() == object) {
+      ++views;
+      last = index;
+      cloud = entry["cloud"].Scalar();
+    }
+    ++index;
+  }
+  if (views == 0) throw none();
+  index = 0;
+  for (const YAML::Node& entry : root["training"]) {
+    if (index++ != last) rest.push_back(entry);
+  }
+  root["training"] = rest;
+  if (rest.size() == 0 && !root["scenes"] && !root["tests"]) {
+    fs::remove(file_, ignored);  // a data set must not be empty
+  } else {
+    storeFile(file_, root);
+  }
+  const Removed removed{(fs::path(folder_) / cloud).lexically_normal().string(), views - 1};
+  if (fs::path(removed.file).parent_path() == objectFolder(object)) fs::remove(removed.file, ignored);
+  return removed;
 }
 
 DataSet CapturedViews::read() const {

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include <sks_detector/cloud.hpp>
 
@@ -27,7 +30,16 @@ public:
   /// Stores a view, then lists it. @throws Error(bad_usage) for a name that is not fit for a folder, or if the data set
   /// file has been changed to millimetres; Error(bad_file) if the files cannot be read or written, or others have been
   /// changing them for long
-  Added add(const std::string& object, const Cloud& view);
+  /// @param plane that the object stands on, its normal towards the object; in the frame of the view
+  Added add(const std::string& object, const Cloud& view,
+            const std::optional<Eigen::Hyperplane<double, 3>>& plane = std::nullopt);
+
+  struct Removed {
+    std::string file;       ///< of the view that was taken out
+    std::size_t views = 0;  ///< of this object that are left
+  };
+  /// Takes the last view of an object out and deletes it. @throws Error(bad_usage) if there is none; as add()
+  Removed removeLast(const std::string& object);
 
   /// Takes all views of an object out and deletes those that add() stored. Returns how many were listed.
   std::size_t remove(const std::string& object);

@@ -51,6 +51,12 @@ std::string viewFault(const Codebook& codebook, const TrainingView& view) {
   const auto all_within = [](const std::vector<Eigen::Vector3f>& vectors, float largest) {
     return std::all_of(vectors.begin(), vectors.end(), [&](const auto& vector) { return within(vector, largest); });
   };
+  if (view.T_model_source) {
+    const Eigen::Matrix4f pose = view.T_model_source->matrix().cast<float>();
+    if (!within(pose.topLeftCorner<3, 3>(), largest_of_unit) || !within(pose.col(3), largest_length)) {
+      return "has a pose in its model that is none";
+    }
+  }
   if (!all_within(view.surface_points, largest_length)) return "has a surface that is not within 1000 km";
   if (!all_within(view.surface_normals, largest_of_unit)) return "has a surface normal that is no unit vector";
   if (!all_within(view.surface_colors, largest_color)) return "has a surface colour that is none";

@@ -22,6 +22,16 @@ Eigen::Vector3f fromFormat(const format::Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+Eigen::Isometry3d fromFormat(const format::Pose& from) {
+  Eigen::Matrix3d axes;
+  axes << fromFormat(from.x_axis()).cast<double>(), fromFormat(from.y_axis()).cast<double>(),
+      fromFormat(from.z_axis()).cast<double>();
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = axes;
+  T.translation() = fromFormat(from.translation()).cast<double>();
+  return T;
+}
+
 std::vector<Eigen::Vector3f> fromFormat(const flatbuffers::Vector<const format::Vec3*>& vectors) {
   std::vector<Eigen::Vector3f> result;
   result.reserve(vectors.size());
@@ -42,6 +52,7 @@ TrainingView fromFormat(const format::View& from) {
   view.box_max = fromFormat(*from.box_max());
   view.surface_points = fromFormat(*from.surface_points());
   view.surface_normals = fromFormat(*from.surface_normals());
+  if (from.source_pose() != nullptr) view.T_model_source = fromFormat(*from.source_pose());
   if (from.surface_colors() != nullptr) view.surface_colors = fromFormat(*from.surface_colors());
   return view;
 }

@@ -20,6 +20,12 @@ format::Vec3 toFormat(const Eigen::Vector3f& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+format::Pose toFormat(const Eigen::Isometry3d& T) {
+  const Eigen::Matrix4f m = T.matrix().cast<float>();
+  const auto column = [&](int c) { return toFormat(Eigen::Vector3f(m.col(c).head<3>())); };
+  return {column(0), column(1), column(2), column(3)};
+}
+
 Offset<flatbuffers::Vector<const format::Vec3*>> toFormat(flatbuffers::FlatBufferBuilder& builder,
                                                           const std::vector<Eigen::Vector3f>& vectors) {
   std::vector<format::Vec3> structs;
@@ -35,8 +41,9 @@ Offset<format::View> toFormat(flatbuffers::FlatBufferBuilder& builder, const Tra
   const auto normals = toFormat(builder, view.surface_normals);
   const auto colors = toFormat(builder, view.surface_colors);
   const format::Vec3 origin = toFormat(view.sensor_origin), low = toFormat(view.box_min), high = toFormat(view.box_max);
+  const format::Pose pose = view.T_model_source ? toFormat(*view.T_model_source) : format::Pose();
   return format::CreateView(builder, view.object, source, format::ViewKind(view.kind), &origin, &low, &high, points,
-                            normals, frame, colors);
+                            normals, frame, colors, view.T_model_source ? &pose : nullptr);
 }
 
 /// What the metadata will take at most, known before FlatBuffers' own limit ends the process.

@@ -29,6 +29,7 @@ bool isBuiltin(const std::string& path) {
 }
 
 constexpr double largest_max_distance = 100, farthest_position = 1e4;  // [m]
+constexpr double largest_normal_error = 0.01;                          // of the length of a unit vector
 constexpr double most_points = 1e9;
 
 /// Reads the parts of one file; keeps what all of them need.
@@ -46,6 +47,7 @@ private:
   static double scaleOf(const YamlMap& map);
   Eigen::Vector3d positionOf(const YamlMap& map, const std::string& key, const Eigen::Vector3d& position) const;
   void readTraining(const YamlMap& map);
+  static Eigen::Hyperplane<double, 3> readPlane(const YamlMap& map, double scale);
   void addSymmetries();
   void readScene(const YamlMap& map);
   GroundTruth readGroundTruth(const YamlMap& map);
@@ -75,9 +77,9 @@ DataSet DataSetReader::read(const std::string& text) {
   data_set_.name = map.name("name");
   readUnits(map);
   for (const YAML::Node& item : map.list("training")) {
-    readTraining(mapOf(
-        item, "a training cloud",
-        {"object", "cloud", "kind", "symmetry", "units", "diameter", "symmetries_discrete", "symmetries_continuous"}));
+    readTraining(mapOf(item, "a training cloud",
+                       {"object", "cloud", "kind", "plane", "symmetry", "units", "diameter", "symmetries_discrete",
+                        "symmetries_continuous"}));
   }
   for (const YAML::Node& item : map.list("scenes")) {
     readScene(mapOf(item, "a scene", {"name", "cloud", "objects", "ignore"}));
@@ -159,10 +161,25 @@ void DataSetReader::readTraining(const YamlMap& map) {
     entry.diameter = scale * map.number("diameter");
     if (*entry.diameter <= 0) map.fail("diameter", "must be greater than 0");
   }
+  if (map.has("plane")) entry.plane = readPlane(map, scale);
   if (left_out) {
     warn(map.at("cloud"), "cloud '" + entry.path + "' of object '" + entry.object + "' does not exist: it is left out");
   }
   (left_out ? data_set_.missing : data_set_.training).push_back(std::move(entry));
+}
+
+/// [a, b, c, d] of the points (x, y, z) with a x + b y + c z + d = 0.
+Eigen::Hyperplane<double, 3> DataSetReader::readPlane(const YamlMap& map, double scale) {
+  const std::vector<double> values = map.numbers("plane", 4);
+  const Eigen::Vector3d normal(values[0], values[1], values[2]);
+  if (map.text("kind") != "view") map.fail("plane", "is only of use for views");
+  if (!(std::abs(normal.norm() - 1) <= largest_normal_error)) {
+    map.fail("plane", "must be [a, b, c, d] with a unit vector (a, b, c): the plane's normal, towards the object");
+  }
+  Eigen::Hyperplane<double, 3> plane(normal.normalized(), scale * values[3]);
+  if (!(std::abs(plane.offset()) <= farthest_position))
+    map.fail("plane", "lies more than 10 km away: is `units` right?");
+  return plane;
 }
 
 /// Gives the ground truth the symmetries that the training entries declare.
@@ -262,8 +279,13 @@ std::vector<TrainingSample> trainingSamples(const DataSet& data_set, const MeshS
       samples.insert(samples.end(), views.begin(), views.end());
       continue;
     }
-    const auto load = [path = entry.path, scale] { return readCloud(path, scale); };
-    samples.push_back({entry.object, entry.source, entry.kind, load, {}, {}});
+    TrainingSample sample;
+    sample.object = entry.object;
+    sample.source = entry.source;
+    sample.kind = entry.kind;
+    sample.plane = entry.plane;
+    sample.load = [path = entry.path, scale] { return readCloud(path, scale); };
+    samples.push_back(std::move(sample));
   }
   return samples;
 }

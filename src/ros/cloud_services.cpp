@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include <ros/console.h>
+#include <tf2_eigen/tf2_eigen.h>
 #include <boost/make_shared.hpp>
 
 #include <sks_detector/error.hpp>
@@ -22,11 +23,16 @@ using sks::ErrorCode;
 
 constexpr double longest_timeout = 3600;  // [s]
 
-/// The points of the one object on the dominant plane.
-std::vector<std::uint32_t> findObject(const sks::Cloud& cloud) {
+/// The one object on the dominant plane.
+struct StandingObject {
+  std::vector<std::uint32_t> points;
+  Eigen::Hyperplane<double, 3> plane;
+};
+
+StandingObject findObject(const sks::Cloud& cloud) {
   const sks::Tabletop tabletop = sks::findTabletop(cloud);
   const std::size_t count = tabletop.objects.size();
-  if (count == 1) return tabletop.objects[0];
+  if (count == 1) return {tabletop.objects[0], tabletop.plane.cast<double>()};
   const std::string plane = sks::formatted("the dominant plane (%.2f m^2, %.2f m from the camera)", tabletop.area,
                                            double(tabletop.plane.absDistance(cloud.sensor_origin)));
   if (count == 0) {
@@ -64,9 +70,9 @@ void CloudServices::captureView(const CaptureView::Request& request, CaptureView
   const std::vector<std::string> warnings = context_.captured.read().warnings;
   for (const std::string& warning : warnings) ROS_WARN_STREAM(warning);
   const sks::Cloud cloud = context_.node.read(*nextCloud(request.timeout));
-  const std::vector<std::uint32_t> object = findObject(cloud);
-  const sks::ViewQuality quality = sks::assessView(cloud, object, context_.slot.trainingSettings());
-  const auto added = context_.captured.add(request.object, sks::cutOut(cloud, object));
+  const StandingObject object = findObject(cloud);
+  const sks::ViewQuality quality = sks::assessView(cloud, object.points, context_.slot.trainingSettings());
+  const auto added = context_.captured.add(request.object, sks::cutOut(cloud, object.points), object.plane);
   context_.updateStatus();
   response.view = added.file;
   response.views = std::uint32_t(added.views);
@@ -76,7 +82,41 @@ void CloudServices::captureView(const CaptureView::Request& request, CaptureView
   response.extent.z = quality.extent.z();
   response.resolution = quality.spacing;
   response.message = "view " + std::to_string(added.views) + " of '" + request.object + "': " + describe(quality) +
-                     asRemarks(warnings);
+                     describeModel(request.object, response) + asRemarks(warnings);
+}
+
+void CloudServices::undoCapture(const RemoveObject::Request& request, RemoveObject::Response& response) {
+  const auto removed = context_.captured.removeLast(request.object);
+  context_.updateStatus();
+  response.views = 1;
+  response.message = "the last view of '" + request.object + "' is taken back; " + counted(removed.views, "view") +
+                     (removed.views == 1 ? " is" : " are") + " left";
+}
+
+std::string CloudServices::describeModel(const std::string& object, CaptureView::Response& response) {
+  const sks::Settings settings = context_.slot.trainingSettings();
+  if (settings.training.register_views == sks::RegisterViews::off) return "";
+  try {
+    const CaptureResult result = models_.update(object, context_.captured.read(), settings);
+    const std::vector<sks::RegisteredView>& views = result.model.views;
+    response.registered_views = std::uint32_t(result.model.tied());
+    response.coverage = result.coverage.share;
+    response.missing = result.coverage.missing;
+    response.registered = !views.empty() && views.back().T_model_view;
+    std::string text;
+    if (result.same) {
+      response.same_as = views[*result.same].source;
+      text += "; it shows the same as view " + std::to_string(*result.same + 1);
+    }
+    if (response.registered) response.pose = tf2::toMsg(*views.back().T_model_view);
+    if (views.size() < 3) return text;  // two cannot confirm each other
+    if (!response.registered) return text + "; it has no place in the model: " + views.back().reason;
+    text += sks::formatted("; %zu of %zu views are registered and show %.0f %% of the directions", result.model.tied(),
+                           views.size(), 100 * result.coverage.share);
+    return response.missing.empty() ? text : text + "; missing: " + response.missing;
+  } catch (const sks::Error& error) {
+    return std::string("; its place in the model is not known: ") + error.what();
+  }
 }
 
 sensor_msgs::PointCloud2ConstPtr CloudServices::nextCloud(double timeout) const {

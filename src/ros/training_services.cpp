@@ -9,6 +9,7 @@
 
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/error.hpp>
+#include <sks_detector/registration.hpp>
 #include <sks_detector/trainer.hpp>
 
 #include "core/pipeline/stopwatch.hpp"
@@ -56,7 +57,12 @@ void TrainingServices::work(const Train::Request& request, const sks::Progress& 
   warnings = set.warnings;
 
   const std::string name = request.name.empty() ? set.name : request.name;
-  const auto codebook = std::make_shared<const sks::Codebook>(sks::train(set.samples, settings, name, progress));
+  sks::RegisteredTraining trained = sks::trainRegistered(set.samples, settings, name, progress);
+  const auto codebook = std::make_shared<const sks::Codebook>(std::move(trained.codebook));
+  for (const std::string& warning : sks::registrationWarnings(trained.objects)) {
+    warn(warning);
+    warnings.push_back(warning);
+  }
   for (const std::string& warning : sks::trainingWarnings(*codebook)) ROS_WARN_STREAM(warning);
   const std::size_t views = codebook->views.size();
   if (!output.empty()) context_.writeCodebook(output, request.overwrite, *codebook);

@@ -3,7 +3,7 @@
 
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/error.hpp>
-#include <sks_detector/trainer.hpp>
+#include <sks_detector/registration.hpp>
 
 #include "io/codebook_layout.hpp"
 #include "io/file.hpp"
@@ -35,7 +35,8 @@ std::shared_ptr<const Codebook> CodebookOptions::train(const DataSet& data_set, 
                 "'" + data_set.file + "' has no training clouds; give a codebook: --codebook FILE");
   }
   const std::vector<TrainingSample> samples = trainingSamples(data_set, mesh_views_.sampler());
-  auto codebook = std::make_shared<const Codebook>(sks::train(samples, settings, data_set.name, progress));
+  auto codebook =
+      std::make_shared<const Codebook>(trainRegistered(samples, settings, data_set.name, progress).codebook);
   if (!save_.empty()) writeCodebook(save_, *codebook);
   return codebook;
 }

@@ -4,6 +4,7 @@
 #include <sks_detector/cloud_io.hpp>
 
 #include "evaluation/evaluation.hpp"
+#include "evaluation/registered_truth.hpp"
 #include "io/dataset.hpp"
 #include "io/file.hpp"
 #include "tools/bop_results.hpp"
@@ -51,7 +52,8 @@ void run(EvaluateOptions& options) {
     warn("object '" + object + "' of the ground truth was never trained: it counts as missed");
   }
   const DetectFunction detect = options.method.detectFunction(codebook, settings);
-  Evaluation evaluation = evaluate(data_set, detect, options.method.name(), settings, bar.callback());
+  Evaluation evaluation =
+      evaluate(registeredTruth(data_set, *codebook), detect, options.method.name(), settings, bar.callback());
   scoreAsBop(evaluation, data_set, objectModels(data_set), threadCount(settings), bar.callback());
   bar.clear();
   nlohmann::json json = evaluationJson(evaluation);

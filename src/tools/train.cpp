@@ -3,6 +3,7 @@
 
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/error.hpp>
+#include <sks_detector/registration.hpp>
 #include <sks_detector/trainer.hpp>
 
 #include "core/pipeline/stopwatch.hpp"
@@ -13,7 +14,9 @@
 #include "tools/codebook_summary.hpp"
 #include "tools/command.hpp"
 #include "tools/mesh_options.hpp"
+#include "tools/model_export.hpp"
 #include "tools/progress_bar.hpp"
+#include "tools/registration_report.hpp"
 #include "tools/table.hpp"
 
 namespace sks::tools {
@@ -23,6 +26,7 @@ struct TrainOptions {
   std::string dataset;
   std::string output;
   std::string name;
+  std::string models;  // folder
   MeshOptions meshes;
   MeshViewOptions mesh_views;
   SettingsOptions settings;
@@ -54,21 +58,38 @@ void run(const TrainOptions& options) {
   const DataSet data_set = trainingSet(options);
   checkWritable(options.output);  // before training takes its time
   options.json.check();
+  if (!options.models.empty()) {
+    std::vector<std::string> objects;
+    for (const TrainingEntry& entry : data_set.training) objects.push_back(entry.object);
+    prepareModelExport(options.models, objects);
+  }
 
   Stopwatch stopwatch;
   ProgressBar bar;
-  const Codebook codebook = train(trainingSamples(data_set, options.mesh_views.sampler()), settings,
-                                  options.name.empty() ? data_set.name : options.name, bar.callback());
+  const RegisteredTraining trained =
+      trainRegistered(trainingSamples(data_set, options.mesh_views.sampler()), settings,
+                      options.name.empty() ? data_set.name : options.name, bar.callback());
+  const Codebook& codebook = trained.codebook;
   bar.clear();
+  for (const std::string& warning : registrationWarnings(trained.objects)) warn(warning);
   for (const std::string& warning : trainingWarnings(codebook)) warn(warning);
   writeCodebook(options.output, codebook);
+  const std::vector<std::string> models =
+      options.models.empty() ? std::vector<std::string>()
+                             : exportModels(options.models, trained.objects, settings.training.surface_resolution);
+  if (!options.models.empty() && models.empty()) {
+    warn("no model to export: no views were registered to each other, see training.register_views");
+  }
   const double seconds = stopwatch.lap();
 
   nlohmann::json json = codebookJson(options.output, codebook);
   json["seconds"] = seconds;
+  json["models"] = models;
+  json["registration"] = registrationJson(trained.objects);
   options.json.write(json);
   if (options.json.onStdout()) return;
-  print(codebookTable(options.output, codebook) + "trained in " + fixed(seconds, 1) + " s\n");
+  print(codebookTable(options.output, codebook) + registrationText(trained.objects) + "trained in " +
+        fixed(seconds, 1) + " s\n");
 }
 
 }  // namespace
@@ -81,6 +102,11 @@ void addTrain(CLI::App& app) {
       ->type_name("FILE");
   command->add_option("--output,-o", options->output, "codebook file to write (*.sks)")->required()->type_name("FILE");
   command->add_option("--name", options->name, "name of the codebook (default: that of the data set)");
+  command
+      ->add_option("--export-models", options->models,
+                   "write the models of objects whose views were registered as PLY clouds (NAME.ply) and meshes "
+                   "(NAME_mesh.ply)")
+      ->type_name("DIR");
   options->meshes.add(*command);
   options->mesh_views.add(*command);
   options->settings.add(*command);

@@ -94,6 +94,11 @@ bool showsTooLittle(const TrainingSample& sample, const Cloud& cloud, const Sett
   return sample.box->sizes().maxCoeff() >= smallest && (seen.isEmpty() || seen.sizes().maxCoeff() < smallest);
 }
 
+/// From the frame of its cloud, in which all is computed, to the model frame.
+Eigen::Isometry3f motionOf(const TrainingView& view) {
+  return view.T_model_source ? view.T_model_source->cast<float>() : Eigen::Isometry3f::Identity();
+}
+
 /// Codewords under construction. Descriptors start as CSHOT under `automatic`; from the first cloud without colour, or
 /// with the colours of a mesh, on they are SHOT, and what was there is cut down to its SHOT part.
 class CodebookBuilder {
@@ -134,7 +139,7 @@ public:
                                            " m) below the spacing of the points?");
     }
     addView(sample, surface, cloud);
-    addWords(keypoints, descriptors);
+    addWords(keypoints, descriptors, codebook_.views.back());
   }
 
   bool knows(const std::string& object) const {
@@ -167,27 +172,30 @@ private:
     view.source = sample.source;
     view.frame = sample.frame;
     view.kind = sample.kind;
-    view.sensor_origin = cloud.sensor_origin;
+    view.T_model_source = sample.T_model_source;
+    const Eigen::Isometry3f T = motionOf(view);
+    view.sensor_origin = T * cloud.sensor_origin;
     const Eigen::AlignedBox3f box = boxOf(sample, cloud);
     view.box_min = box.min();
     view.box_max = box.max();
     for (const std::uint32_t i : thinnedIndices(surface, codebook_.settings.training.surface_resolution)) {
       if (!surface.normal(i).allFinite()) continue;
-      view.surface_points.push_back(surface.point(i));
-      view.surface_normals.push_back(surface.normal(i));
+      view.surface_points.push_back(T * surface.point(i));
+      view.surface_normals.push_back(T.linear() * surface.normal(i));
       if (surface.hasColor()) view.surface_colors.push_back(surface.colorAt(i));
     }
     codebook_.views.push_back(std::move(view));
   }
 
-  void addWords(const Keypoints& keypoints, const Descriptors& descriptors) {
+  void addWords(const Keypoints& keypoints, const Descriptors& descriptors, const TrainingView& view) {
+    const Eigen::Isometry3f T = motionOf(view);
     const DescriptorMatrix& rows = descriptors.values;
     values_.append(rows.data(), rows.rows() * rows.cols());
     for (std::size_t row = 0; row < rows.rows(); ++row) {
       Codeword word;
       word.view = std::uint32_t(codebook_.views.size() - 1);
-      word.position = keypoints.positions[descriptors.keypoints[row]];
-      word.frame = descriptors.frames[row];
+      word.position = T * keypoints.positions[descriptors.keypoints[row]];
+      word.frame = descriptors.frames[row] * T.linear().transpose();
       codebook_.words.push_back(word);
     }
   }

@@ -50,4 +50,17 @@ std::array<float, 3> toScaledLab(const Rgb& color) {
   return {(116.0f * fy - 16.0f) / 100.0f, 500.0f * (fx - fy) / 120.0f, 200.0f * (fy - fz) / 120.0f};
 }
 
+Rgb fromScaledLab(const std::array<float, 3>& color) {
+  const double fy = (100.0 * color[0] + 16.0) / 116.0;
+  const double fx = fy + 120.0 * color[1] / 500.0, fz = fy - 120.0 * color[2] / 200.0;
+  const auto cube = [](double f) { return f * f * f > 0.008856 ? f * f * f : (f - 16.0 / 116.0) / 7.787; };
+  const double x = 0.95047 * cube(fx), y = cube(fy), z = 1.08883 * cube(fz);
+  const auto level = [](double linear) {
+    const double value = linear > 0.0031308 ? 1.055 * std::pow(linear, 1 / 2.4) - 0.055 : 12.92 * linear;
+    return std::uint8_t(std::lround(255 * std::clamp(value, 0.0, 1.0)));
+  };
+  return {level(3.240479 * x - 1.537150 * y - 0.498535 * z), level(-0.969256 * x + 1.875992 * y + 0.041556 * z),
+          level(0.055648 * x - 0.204043 * y + 1.057311 * z)};
+}
+
 }  // namespace sks

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include <sks_detector/registration.hpp>
+
+#include "core/pipeline/default_stages.hpp"
+#include "core/pipeline/scene_description.hpp"
+#include "core/registration/captured_view.hpp"
+#include "core/registration/model_fusion.hpp"
+#include "core/registration/view_graph.hpp"
+#include "core/registration/view_relation.hpp"
+#include "core/settings/threads.hpp"
+
+namespace sks {
+namespace {
+
+// Of a view that shows nothing new: how far it was taken from the direction of an earlier one [rad], 8 degrees, and how
+// much of it the earlier one shows.
+constexpr double same_direction = 0.14, same_overlap = 0.8;
+
+/// Moves the origin of the model to where the settings want it.
+void moveOrigin(RegisteredObject& object, std::vector<std::optional<Eigen::Isometry3d>>& poses, ModelOrigin wanted) {
+  if (object.model.box.isEmpty()) return;
+  const bool base = object.on_plane && wanted != ModelOrigin::center;
+  Eigen::Vector3f origin = object.model.box.center();
+  if (base) origin.z() = 0;
+  for (auto& pose : poses) {
+    if (pose) pose->pretranslate(-origin.cast<double>());
+  }
+  for (Eigen::Vector3f& p : object.model.points) p -= origin;
+  object.model.box.translate(-origin);
+}
+
+}  // namespace
+
+struct ObjectRegistrar::Views {
+  Views(std::string name, const Settings& wanted, const Stages& stages)
+      : object(std::move(name)),
+        settings(wanted),
+        threads(startableThreads(wanted)),
+        keypoints(stages.keypoints ? stages.keypoints : std::make_shared<const ConfiguredKeypoints>()),
+        descriptors(stages.descriptors ? stages.descriptors
+                                       : std::make_shared<const ShotDescriptors>(DescriptorType::shot)) {}
+
+  CapturedView describe(const TrainingSample& sample) const {
+    const Cloud cloud = usablePoints(sample.load(), Orientation::sensor, settings);
+    Surface surface = prepareSurface(cloud, settings.surface, Orientation::sensor, threads);
+    const Keypoints found = keypoints->detect(surface, settings);
+    const Descriptors rows = described(*descriptors, surface, found, settings);
+    CapturedView view(std::move(surface), found, rows, settings, sample.plane);
+    view.source = sample.source;
+    return view;
+  }
+
+  std::string object;
+  Settings settings;
+  int threads;
+  PairLimits limits;
+  std::shared_ptr<const KeypointStage> keypoints;
+  std::shared_ptr<const DescriptorStage> descriptors;
+  std::vector<CapturedView> views;
+  std::vector<std::string> sources;
+  std::vector<ViewRelation> relations;  // in the order of their later view
+};
+
+ObjectRegistrar::ObjectRegistrar(std::string object, const Settings& settings, const Stages& stages) {
+  validate(settings);
+  views_ = std::make_unique<Views>(std::move(object), settings, stages);
+}
+ObjectRegistrar::~ObjectRegistrar() = default;
+ObjectRegistrar::ObjectRegistrar(ObjectRegistrar&&) noexcept = default;
+ObjectRegistrar& ObjectRegistrar::operator=(ObjectRegistrar&&) noexcept = default;
+
+void ObjectRegistrar::add(const TrainingSample& sample) {
+  try {
+    views_->views.push_back(views_->describe(sample));
+  } catch (const Error& error) {
+    throw Error(error.code(), sample.source + ": " + error.what());
+  }
+  views_->sources.push_back(sample.source);
+  const std::vector<CapturedView>& views = views_->views;
+  const std::size_t b = views.size() - 1;
+  const int threads = views_->threads;
+  std::vector<std::vector<ViewRelation>> of_pairs(b);
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t a = 0; a < b; ++a) of_pairs[a] = relateViews(views[a], views[b], views_->settings, views_->limits);
+  for (std::size_t a = 0; a < b; ++a) {
+    for (ViewRelation& relation : of_pairs[a]) {
+      relation.a = a;
+      relation.b = b;
+      views_->relations.push_back(std::move(relation));
+    }
+  }
+}
+
+void ObjectRegistrar::resize(std::size_t count) {
+  if (count >= views_->views.size()) return;
+  views_->views.erase(views_->views.begin() + std::ptrdiff_t(count), views_->views.end());
+  views_->sources.resize(count);
+  std::vector<ViewRelation>& relations = views_->relations;
+  relations.erase(std::remove_if(relations.begin(), relations.end(), [&](const auto& r) { return r.b >= count; }),
+                  relations.end());
+}
+
+const std::vector<std::string>& ObjectRegistrar::sources() const {
+  return views_->sources;
+}
+
+std::optional<std::size_t> ObjectRegistrar::sameAs(std::size_t view) const {
+  std::optional<std::size_t> same;
+  double most = same_overlap;
+  for (const ViewRelation& relation : views_->relations) {
+    if (relation.b != view || relation.agreement.overlap() < most) continue;
+    // Where each camera was, seen from the middle of what both show.
+    const CapturedView &a = views_->views[relation.a], &b = views_->views[relation.b];
+    const Eigen::Vector3d from_a = relation.T_b_a * a.surface.sensor_origin.cast<double>() - b.center;
+    const Eigen::Vector3d from_b = b.surface.sensor_origin.cast<double>() - b.center;
+    if (from_a.normalized().dot(from_b.normalized()) < std::cos(same_direction)) continue;
+    most = relation.agreement.overlap();
+    same = relation.a;
+  }
+  return same;
+}
+
+RegisteredObject ObjectRegistrar::result() const {
+  const std::vector<CapturedView>& views = views_->views;
+  RegisteredObject object;
+  object.object = views_->object;
+  object.frame = views_->object + "#model";
+  TiedViews tied = tieViews(views, views_->relations, views_->settings, views_->limits, LoopLimits(), views_->threads);
+  object.loops = tied.loops;
+  object.on_plane = tied.first && views[*tied.first].plane;
+  object.model = fuseViews(views, tied.T_model_view, views_->settings);
+  moveOrigin(object, tied.T_model_view, views_->settings.training.origin);
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    RegisteredView view;
+    view.sample = v;
+    view.source = views_->sources[v];
+    view.T_model_view = tied.T_model_view[v];
+    view.reason = tied.reasons[v];
+    if (view.T_model_view) view.sensor = *view.T_model_view * views[v].surface.sensor_origin.cast<double>();
+    object.views.push_back(std::move(view));
+  }
+  return object;
+}
+
+std::size_t RegisteredObject::tied() const {
+  return std::size_t(std::count_if(views.begin(), views.end(), [](const auto& v) { return bool(v.T_model_view); }));
+}
+
+}  // namespace sks

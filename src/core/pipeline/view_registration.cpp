@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <sks_detector/registration.hpp>
+
+#include <algorithm>
+#include <utility>
+
+namespace sks {
+namespace {
+
+bool isCaptured(const TrainingSample& sample) {
+  return sample.kind == ViewKind::view && !sample.rendered && sample.frame.empty();
+}
+
+/// Objects with their captured views, in order of their first sample.
+std::vector<RegisteredObject> capturedObjects(const std::vector<TrainingSample>& samples) {
+  std::vector<RegisteredObject> objects;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!isCaptured(samples[i])) continue;
+    auto known = std::find_if(objects.begin(), objects.end(),
+                              [&](const RegisteredObject& o) { return o.object == samples[i].object; });
+    if (known == objects.end()) {
+      objects.emplace_back();
+      known = std::prev(objects.end());
+      known->object = samples[i].object;
+    }
+    RegisteredView view;
+    view.sample = i;
+    view.source = samples[i].source;
+    known->views.push_back(std::move(view));
+  }
+  objects.erase(std::remove_if(objects.begin(), objects.end(), [](const auto& o) { return o.views.size() < 2; }),
+                objects.end());
+  return objects;
+}
+
+bool planesKnown(const RegisteredObject& object, const std::vector<TrainingSample>& samples) {
+  return std::all_of(object.views.begin(), object.views.end(),
+                     [&](const RegisteredView& view) { return bool(samples[view.sample].plane); });
+}
+
+void registerObject(RegisteredObject& object, const std::vector<TrainingSample>& samples, const Settings& settings,
+                    const Progress& progress, const Stages& stages) {
+  ObjectRegistrar registrar(object.object, settings, stages);
+  std::vector<std::size_t> indices;
+  for (const RegisteredView& view : object.views) {
+    report(progress, {"registering", view.source, indices.size(), object.views.size()});
+    registrar.add(samples[view.sample]);
+    indices.push_back(view.sample);
+  }
+  object = registrar.result();
+  for (RegisteredView& view : object.views) view.sample = indices[view.sample];
+}
+
+}  // namespace
+
+ViewRegistration registerViews(const std::vector<TrainingSample>& samples, const Settings& settings,
+                               const Progress& progress, const Stages& stages) {
+  validate(settings);
+  ViewRegistration registration{samples, capturedObjects(samples)};
+  std::vector<RegisteredObject>& objects = registration.objects;
+  if (settings.training.register_views != RegisterViews::on) {
+    objects.erase(std::remove_if(objects.begin(), objects.end(),
+                                 [&](const RegisteredObject& object) { return !planesKnown(object, samples); }),
+                  objects.end());
+  }
+  for (RegisteredObject& object : registration.objects) {
+    registerObject(object, samples, settings, progress, stages);
+    for (const RegisteredView& view : object.views) {
+      if (!view.T_model_view) continue;
+      TrainingSample& sample = registration.samples[view.sample];
+      sample.frame = object.frame;
+      sample.box = object.model.box;
+      sample.T_model_source = view.T_model_view;
+    }
+  }
+  return registration;
+}
+
+RegisteredTraining trainRegistered(const std::vector<TrainingSample>& samples, const Settings& settings,
+                                   const std::string& name, const Progress& progress, const Stages& stages) {
+  if (settings.training.register_views == RegisterViews::off) {
+    return {train(samples, settings, name, progress, stages), {}};
+  }
+  ViewRegistration registration = registerViews(samples, settings, progress, stages);
+  return {train(registration.samples, settings, name, progress, stages), std::move(registration.objects)};
+}
+
+std::vector<std::string> registrationWarnings(const std::vector<RegisteredObject>& objects) {
+  std::vector<std::string> warnings;
+  for (const RegisteredObject& object : objects) {
+    std::string text;
+    for (const RegisteredView& view : object.views) {
+      if (!view.T_model_view) text += "; " + view.source + ": " + view.reason;
+    }
+    if (text.empty()) continue;
+    warnings.push_back("object '" + object.object + "': " + std::to_string(object.tied()) + " of " +
+                       std::to_string(object.views.size()) + " views share one frame" + text);
+  }
+  return warnings;
+}
+
+}  // namespace sks

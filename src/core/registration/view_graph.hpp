@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <sks_detector/registration.hpp>
+#include <sks_detector/settings.hpp>
+
+#include "core/registration/view_relation.hpp"
+
+namespace sks {
+
+/// When relative poses close a loop.
+struct LoopLimits {
+  double angle = 0.0524;  ///< [rad], 3 degrees
+  double shift = 0.005;   ///< [m], at the middle of what a view shows
+};
+
+/// The views of one object that were tied to each other.
+struct TiedViews {
+  std::vector<std::optional<Eigen::Isometry3d>> T_model_view;  ///< of each view; none: it could not be tied
+  std::vector<std::string> reasons;  ///< why not, in words, other views by their `source`; empty for tied ones
+  std::optional<std::size_t> first;  ///< the first tied view, which the frame refers to; none: nothing was tied
+  LoopErrors loops;
+};
+
+/// Ties views by their relative poses. A relative pose is believed only together with others that close a loop with it,
+/// and only while what the cameras saw of the whole agrees; the poses of all are then optimised together. Where planes
+/// are known, they lie in z = 0 of the model and its x axis points to where the first view was taken from; else the
+/// model frame is that of the first view. Deterministic for any number of threads.
+/// @param relations of relateViews() of all pairs
+TiedViews tieViews(const std::vector<CapturedView>& views, const std::vector<ViewRelation>& relations,
+                   const Settings& settings, const PairLimits& limits, const LoopLimits& loops, int threads);
+
+}  // namespace sks

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Views of objects on a table, before a virtual Kinect, are tied into one model: rightly or not at all.
+#include <sks_detector/registration.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sks_detector/codebook_file.hpp>
+#include <sks_detector/detector.hpp>
+#include <sks_detector/simulation/camera_presets.hpp>
+#include <sks_detector/simulation/training_views.hpp>
+
+#include "core/capture/tabletop.hpp"
+#include "evaluation/registered_truth.hpp"
+#include "simulation/builtin_objects.hpp"
+#include "simulation/renderer.hpp"
+#include "simulation/shapes.hpp"
+#include "temporary_folder.hpp"
+
+namespace sks {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double distance = 0.7, elevation = 0.6;  // of the camera [m], [rad]
+
+/// An object that stands in the middle of a table.
+class TableView {
+public:
+  explicit TableView(const std::string& object)
+      : object_(object), mesh_(std::make_shared<const Mesh>(builtinObject(object))) {
+    const Eigen::AlignedBox3f box = mesh_->box();
+    T_table_mesh_.translation() = -Eigen::Vector3f(box.center().x(), box.center().y(), box.min().z()).cast<double>();
+    target_ = Eigen::Vector3d(0, 0, 0.5 * double(box.sizes().z()));
+    const auto table = std::make_shared<Mesh>(makeBox({1, 1, 0.02f}, plain({150, 140, 130}), 0.02f));
+    renderer_->addInstance(renderer_->addMesh(table), Eigen::Isometry3d(Eigen::Translation3d(0, 0, -0.01)));
+    renderer_->addInstance(renderer_->addMesh(mesh_), T_table_mesh_);
+  }
+
+  Eigen::Isometry3d T_table_camera(double degrees) const {
+    const double turn = degrees * EIGEN_PI / 180;
+    const Eigen::Vector3d direction(std::cos(turn) * std::cos(elevation), std::sin(turn) * std::cos(elevation),
+                                    std::sin(elevation));
+    return lookAt(target_ + distance * direction, target_, Eigen::Vector3d::UnitZ());
+  }
+
+  Cloud picture(double degrees, std::uint64_t noise) const {
+    return renderer_->render(cameraPreset("kinect"), T_table_camera(degrees), noise, 2).cloud;
+  }
+
+  /// As ~capture_view takes it.
+  TrainingSample capture(double degrees, std::uint64_t noise = 0) const {
+    const Cloud picture_of_all = picture(degrees, noise + std::uint64_t(degrees));
+    const Tabletop top = findTabletop(picture_of_all);
+    TrainingSample sample;
+    sample.object = object_;
+    sample.source = object_ + std::to_string(int(degrees));
+    sample.load = [cloud = cutOut(picture_of_all, top.objects.at(0))] { return cloud; };
+    sample.plane = top.plane.cast<double>();
+    return sample;
+  }
+
+  std::vector<TrainingSample> captureAround(int views, double from = 10, double to = 370) const {
+    std::vector<TrainingSample> samples;
+    for (int i = 0; i < views; ++i) samples.push_back(capture(std::floor(from + (to - from) * i / views)));
+    return samples;
+  }
+
+  /// How far the model frames that the poses of the views lead to lie apart: at the object's middle [m], and [rad].
+  std::pair<double, double> spread(const RegisteredObject& object, const std::vector<double>& degrees) const {
+    std::optional<Eigen::Isometry3d> first;
+    std::pair<double, double> largest(0, 0);
+    for (std::size_t v = 0; v < object.views.size(); ++v) {
+      if (!object.views[v].T_model_view) continue;
+      const Eigen::Isometry3d T = T_table_camera(degrees[v]) * object.views[v].T_model_view->inverse();
+      if (!first) first = T;
+      const Eigen::Vector3d middle = first->inverse() * target_;
+      largest.first = std::max(largest.first, (T * middle - target_).norm());
+      largest.second = std::max(largest.second, Eigen::AngleAxisd(first->linear().transpose() * T.linear()).angle());
+    }
+    return largest;
+  }
+
+  Eigen::Vector3f size() const { return mesh_->box().sizes(); }
+
+private:
+  std::string object_;
+  std::shared_ptr<const Mesh> mesh_;
+  std::shared_ptr<Renderer> renderer_ = std::make_shared<Renderer>();
+  Eigen::Isometry3d T_table_mesh_ = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d target_;
+};
+
+std::vector<double> degreesOf(const RegisteredObject& object) {
+  std::vector<double> degrees;
+  for (const RegisteredView& view : object.views) {
+    degrees.push_back(std::stod(view.source.substr(view.source.find_first_of("0123456789"))));
+  }
+  return degrees;
+}
+
+constexpr double degree = EIGEN_PI / 180;
+
+/// The first tied view, which the frame refers to.
+const RegisteredView& firstOf(const RegisteredObject& object) {
+  return *std::find_if(object.views.begin(), object.views.end(), [](const auto& view) { return view.T_model_view; });
+}
+
+class DuckModel : public ::testing::Test {
+protected:
+  static const TableView& table() {
+    static const TableView duck("duck");
+    return duck;
+  }
+  static const std::vector<TrainingSample>& samples() {
+    static const std::vector<TrainingSample> views = table().captureAround(12);
+    return views;
+  }
+  static const ViewRegistration& registered() {
+    static const ViewRegistration registration = registerViews(samples(), Settings());
+    return registration;
+  }
+};
+
+TEST_F(DuckModel, TiesNearlyAllViewsAndAllOfThemRightly) {
+  ASSERT_EQ(registered().objects.size(), 1u);
+  const RegisteredObject& duck = registered().objects[0];
+  EXPECT_EQ(duck.object, "duck");
+  EXPECT_GE(duck.tied(), 9u);
+  for (const RegisteredView& view : duck.views) EXPECT_EQ(bool(view.T_model_view), view.reason.empty());
+  const auto [shift, turn] = table().spread(duck, degreesOf(duck));
+  EXPECT_LT(shift, 0.003);
+  EXPECT_LT(turn, 2 * degree);
+  EXPECT_GT(duck.loops.loops, 10u);
+  EXPECT_LT(duck.loops.largest_shift, 0.005);
+  EXPECT_LT(duck.loops.largest_angle, 3 * degree);
+}
+
+TEST_F(DuckModel, StandsUprightOnTheMiddleOfItsBase) {
+  const RegisteredObject& duck = registered().objects[0];
+  EXPECT_TRUE(duck.on_plane);
+  const Eigen::Isometry3d T_table_model =
+      table().T_table_camera(degreesOf(duck)[firstOf(duck).sample]) * firstOf(duck).T_model_view->inverse();
+  EXPECT_LT(std::acos(std::min(1.0, T_table_model.linear()(2, 2))), 1 * degree);
+  EXPECT_NEAR(T_table_model.translation().z(), 0, 0.003);
+  const Eigen::AlignedBox3f& box = duck.model.box;
+  EXPECT_NEAR(box.min().z(), 0, 1e-6);
+  EXPECT_NEAR(box.max().z(), table().size().z(), 0.005);
+  EXPECT_NEAR(box.center().x(), 0, 1e-5);
+  EXPECT_NEAR(box.center().y(), 0, 1e-5);
+  // the first view was taken from where x points to
+  EXPECT_GT(firstOf(duck).sensor.x(), 0.5);
+  EXPECT_NEAR(firstOf(duck).sensor.y(), 0, 0.05);
+}
+
+TEST_F(DuckModel, HasNormalsOutwardsAndColours) {
+  const FusedModel& model = registered().objects[0].model;
+  ASSERT_GT(model.points.size(), 1000u);
+  EXPECT_EQ(model.normals.size(), model.points.size());
+  EXPECT_EQ(model.colors.size(), model.points.size());
+  for (const Eigen::Vector3f& normal : model.normals) EXPECT_NEAR(normal.norm(), 1, 1e-4);
+}
+
+TEST_F(DuckModel, OriginAtTheCentreOfTheBox) {
+  Settings settings;
+  settings.training.origin = ModelOrigin::center;
+  const ViewRegistration centered = registerViews(samples(), settings);
+  EXPECT_LT(centered.objects[0].model.box.center().norm(), 1e-5);
+}
+
+TEST_F(DuckModel, IsTheSameForAnyNumberOfThreads) {
+  Settings settings;
+  settings.threads = 1;
+  const ViewRegistration one = registerViews(samples(), settings);
+  for (std::size_t v = 0; v < samples().size(); ++v) {
+    const auto &single = one.objects[0].views[v].T_model_view, &several = registered().objects[0].views[v].T_model_view;
+    ASSERT_EQ(bool(single), bool(several));
+    if (single) {
+      EXPECT_EQ(single->matrix(), several->matrix());
+    }
+  }
+}
+
+TEST_F(DuckModel, GivesDetectionsOneFrameAndBox) {
+  const RegisteredTraining trained = trainRegistered(samples(), Settings(), "duck");
+  const RegisteredObject& duck = trained.objects.at(0);
+  for (std::size_t v = 0; v < duck.views.size(); ++v) {
+    const TrainingView& view = trained.codebook.views[v];
+    const bool tied = bool(duck.views[v].T_model_view);
+    EXPECT_EQ(view.frameName(), tied ? "duck#model" : duck.views[v].source);
+    if (tied) {
+      EXPECT_LT((view.center() - duck.model.box.center()).norm(), 1e-5);
+    }
+  }
+  const test::TemporaryFolder folder;
+  writeCodebook(folder.path("duck.sks"), trained.codebook);
+  const auto codebook = readCodebook(folder.path("duck.sks"));
+  const std::size_t first = firstOf(duck).sample;
+  ASSERT_TRUE(codebook->views[first].T_model_source);
+  EXPECT_TRUE(codebook->views[first].T_model_source->isApprox(*firstOf(duck).T_model_view, 1e-5));
+
+  const Eigen::Isometry3d T_table_model =
+      table().T_table_camera(degreesOf(duck)[first]) * firstOf(duck).T_model_view->inverse();
+  const Detector detector(codebook);
+  int of_model = 0;
+  for (const double degrees : {85.0, 145.0, 205.0, 265.0}) {
+    const auto found = detector.detect(table().picture(degrees, 1000)).above(0.5);
+    ASSERT_EQ(found.size(), 1u) << degrees;
+    if (found[0].view != "duck#model") continue;
+    ++of_model;
+    const Eigen::Isometry3d T_scene_true = table().T_table_camera(degrees).inverse() * T_table_model;
+    EXPECT_LT((found[0].T_scene_model.translation() - T_scene_true.translation()).norm(), 0.01) << degrees;
+    EXPECT_LT(Eigen::AngleAxisd(found[0].T_scene_model.linear().transpose() * T_scene_true.linear()).angle(),
+              6 * degree);
+  }
+  EXPECT_GE(of_model, 3);
+}
+
+TEST_F(DuckModel, LeavesTheFirstFrameWhereItIsWhenViewsAreAdded) {
+  const std::vector<TrainingSample> fewer(samples().begin(), samples().end() - 2);
+  const RegisteredObject before = registerViews(fewer, Settings()).objects.at(0);
+  const RegisteredObject& after = registered().objects[0];
+  ASSERT_EQ(firstOf(before).sample, firstOf(after).sample);
+  const Eigen::Isometry3d change = *firstOf(after).T_model_view * firstOf(before).T_model_view->inverse();
+  EXPECT_LT(Eigen::AngleAxisd(change.linear()).angle(), 1 * degree);
+  EXPECT_LT(std::abs(change.translation().z()), 0.002);
+}
+
+TEST_F(DuckModel, EvaluatesTruthInTheFramesOfViews) {
+  const RegisteredTraining trained = trainRegistered(samples(), Settings(), "duck");
+  DataSet data_set;
+  Scene scene;
+  GroundTruth truth;
+  truth.object = "duck";
+  const RegisteredView& view = firstOf(trained.objects.at(0));
+  truth.reference = view.source;
+  truth.T_scene_reference = Eigen::Isometry3d::Identity();
+  scene.objects = {truth};
+  data_set.scenes = {scene};
+  const GroundTruth in_model = registeredTruth(data_set, trained.codebook).scenes[0].objects[0];
+  EXPECT_EQ(in_model.model_frame, "duck#model");
+  ASSERT_TRUE(in_model.T_scene_model);
+  EXPECT_TRUE(in_model.T_scene_model->isApprox(view.T_model_view->inverse(), 1e-5));
+}
+
+TEST(ViewRegistrationTest, TwoViewsAloneAreNotBelieved) {
+  const TableView duck("duck");
+  const ViewRegistration registration = registerViews({duck.capture(0), duck.capture(30)}, Settings());
+  ASSERT_EQ(registration.objects.size(), 1u);
+  EXPECT_EQ(registration.objects[0].tied(), 0u);
+  EXPECT_TRUE(registration.samples[0].frame.empty());
+  ASSERT_EQ(registrationWarnings(registration.objects).size(), 1u);
+  EXPECT_THAT(registrationWarnings(registration.objects)[0], HasSubstr("two views alone cannot confirm each other"));
+}
+
+TEST(ViewRegistrationTest, KeepsViewsOfAnotherObjectApart) {
+  const TableView duck("duck"), mug("mug");
+  std::vector<TrainingSample> samples = duck.captureAround(6, 0, 180);
+  for (TrainingSample sample : mug.captureAround(2, 0, 60)) {
+    sample.object = "duck";
+    samples.push_back(sample);
+  }
+  const RegisteredObject registered = registerViews(samples, Settings()).objects.at(0);
+  EXPECT_GE(registered.tied(), 4u);
+  for (const RegisteredView& view : registered.views) {
+    if (view.source.rfind("mug", 0) != 0) continue;
+    EXPECT_FALSE(view.T_model_view) << view.source;
+    EXPECT_FALSE(view.reason.empty()) << view.source;
+  }
+}
+
+TEST(ViewRegistrationTest, DoesNotGuessTheTurnOfABodyOfRevolution) {
+  const TableView bowl("bowl");
+  const RegisteredObject registered = registerViews(bowl.captureAround(6), Settings()).objects.at(0);
+  const auto [shift, turn] = bowl.spread(registered, degreesOf(registered));
+  EXPECT_LT(turn, 3 * degree);  // of those that were tied, if any
+  for (const RegisteredView& view : registered.views) EXPECT_EQ(bool(view.T_model_view), view.reason.empty());
+}
+
+TEST(ViewRegistrationTest, TiesNoViewOfAMugWrongly) {
+  const TableView mug("mug");
+  const RegisteredObject registered = registerViews(mug.captureAround(12), Settings()).objects.at(0);
+  const auto [shift, turn] = mug.spread(registered, degreesOf(registered));
+  EXPECT_LT(shift, 0.003);
+  EXPECT_LT(turn, 3 * degree);
+}
+
+TEST(ViewRegistrationTest, TiesARepeatedView) {
+  const TableView duck("duck");
+  ObjectRegistrar registrar("duck", Settings());
+  for (const double degrees : {90.0, 115.0, 140.0}) registrar.add(duck.capture(degrees));
+  registrar.add(duck.capture(115, 77));
+  const RegisteredObject registered = registrar.result();
+  ASSERT_TRUE(registered.views[1].T_model_view && registered.views[3].T_model_view);
+  const Eigen::Isometry3d between = registered.views[1].T_model_view->inverse() * *registered.views[3].T_model_view;
+  EXPECT_LT(Eigen::AngleAxisd(between.linear()).angle(), 2 * degree);
+  EXPECT_FALSE(registrar.sameAs(1));
+  EXPECT_EQ(registrar.sameAs(3), std::optional<std::size_t>(1));
+  registrar.resize(3);
+  EXPECT_EQ(registrar.sources().size(), 3u);
+  EXPECT_EQ(registrar.result().tied(), 3u);
+}
+
+TEST(ViewRegistrationTest, LeavesMeshesAndModelsAlone) {
+  TrainingSample rendered;
+  rendered.object = "thing";
+  rendered.rendered = true;
+  TrainingSample model;
+  model.object = "thing";
+  model.kind = ViewKind::model;
+  EXPECT_TRUE(registerViews({rendered, model, rendered}, Settings()).objects.empty());
+}
+
+TEST(ViewRegistrationTest, RegistersWithoutPlanesOnlyWhereAsked) {
+  const TableView duck("duck");
+  std::vector<TrainingSample> samples = duck.captureAround(5, 0, 125);
+  for (TrainingSample& sample : samples) sample.plane.reset();
+  EXPECT_TRUE(registerViews(samples, Settings()).objects.empty());
+  Settings settings;
+  settings.training.register_views = RegisterViews::on;
+  const RegisteredObject registered = registerViews(samples, settings).objects.at(0);
+  EXPECT_GE(registered.tied(), 3u);
+  EXPECT_FALSE(registered.on_plane);
+  const auto [shift, turn] = duck.spread(registered, degreesOf(registered));
+  EXPECT_LT(turn, 2 * degree);
+}
+
+}  // namespace
+}  // namespace sks
