@@ -15,7 +15,7 @@ namespace {
 
 constexpr double cubes_per_resolution = 2;
 constexpr std::size_t fewest_contradictions = 2;  // one camera may have lost a part of the object
-constexpr int fewest_neighbors = 4;               // within `neighborhood` cubes: fewer are stray points
+constexpr int fewest_around = 4;                  // within `neighborhood` cubes: fewer are stray points
 constexpr float neighborhood = 2.5f;              // [cubes]
 
 /// A point of a view in the model, and the cube in which it is averaged. Front and back of a thin part stay apart.
@@ -129,7 +129,7 @@ private:
     for (const Averaged& p : surface) {
       int neighbors = -1;  // without itself
       grid.forEachNeighbor(p.point, radius, runs, [&](std::uint32_t, float) { ++neighbors; });
-      if (neighbors >= fewest_neighbors) kept.push_back(p);
+      if (neighbors >= fewest_around) kept.push_back(p);
     }
     return kept;
   }

@@ -15,12 +15,12 @@
 namespace sks {
 namespace {
 
-constexpr std::size_t most_seeds = 5;     // loops from which tying is begun; the largest result counts
-constexpr std::size_t fewest_edges = 2;   // of a tied view: what a single pair says is not believed
-constexpr int completions = 2;            // rounds in which pairs are aligned anew from the common poses
-constexpr double majority = 2;            // weight of the relations that agree on a pose over that of others
-constexpr int fewest_contradictions = 2;  // views that saw nothing there: one may have lost a part of the object
-constexpr double most_foreign = 0.06;     // of a view's points
+constexpr std::size_t most_seeds = 5;    // loops from which tying is begun; the largest result counts
+constexpr std::size_t fewest_edges = 2;  // of a tied view: what a single pair says is not believed
+constexpr int completions = 2;           // rounds in which pairs are aligned anew from the common poses
+constexpr double majority = 2;           // weight of the relations that agree on a pose over that of others
+constexpr int fewest_refuting = 2;       // views that saw nothing there: one may have lost a part of the object
+constexpr double most_foreign = 0.06;    // of a view's points
 constexpr double noise_share = 0.015, noise_factor = 2.5;  // of contradictions, see limitsFor()
 constexpr int growths = 2;     // views that drifted poses kept out come in once these are exact
 constexpr double slack = 1.5;  // of the limits of contradictions, for poses that are not optimised yet
@@ -430,7 +430,7 @@ double Cluster::foreignShare(std::size_t view) const {
       confirmed += seen.sight == Sight::at ? 1 : 0;
     }
     ++points;
-    foreign += against >= fewest_contradictions && confirmed == 0 ? 1 : 0;
+    foreign += against >= fewest_refuting && confirmed == 0 ? 1 : 0;
   }
   return points > 0 ? double(foreign) / double(points) : 0;
 }

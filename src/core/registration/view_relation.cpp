@@ -9,12 +9,12 @@ namespace sks {
 namespace {
 
 // First poses come from single local reference frames, which are off by some degrees and a centimetre.
-constexpr double rough_distance = 0.015, rough_angle = 0.8;                        // [m], [rad]
-constexpr double rough_color = 2;                                                  // of the tolerance
-constexpr std::size_t first_points = 100, rough_points = 300, last_points = 1500;  // of each view
-constexpr std::size_t most_first = 48, most_rough = 8;                             // poses
-constexpr double same_first_angle = 0.17, same_first_shift = 0.015;                // 10 degrees
-constexpr double same_angle = 0.052, same_shift = 0.005;                           // 3 degrees
+constexpr double rough_distance = 0.015, rough_angle = 0.8;                                       // [m], [rad]
+constexpr double rough_color = 2;                                                                 // of the tolerance
+constexpr std::size_t pair_first_points = 100, pair_rough_points = 300, pair_last_points = 1500;  // of each view
+constexpr std::size_t most_first = 48, most_rough = 8;                                            // poses
+constexpr double same_first_angle = 0.17, same_first_shift = 0.015;                               // 10 degrees
+constexpr double same_angle = 0.052, same_shift = 0.005;                                          // 3 degrees
 constexpr double enough_overlap = 0.5;     // of the smaller view: more says no more of a pose that is exact
 constexpr int turns = 24;                  // about the normal of the planes that views stand on, 15 degrees apart
 constexpr double largest_levelling = 0.5;  // [rad] first poses that are tilted more are wrong
@@ -119,14 +119,14 @@ std::vector<Eigen::Isometry3d> firstPoses(const CapturedView& a, const CapturedV
 /// First poses, aligned roughly.
 std::vector<Rated> roughPoses(const CapturedView& a, const CapturedView& b, const VerificationSettings& rough) {
   std::vector<Rated> poses;
-  const std::size_t stride = strideFor(a, b, first_points);
+  const std::size_t stride = strideFor(a, b, pair_first_points);
   for (const Eigen::Isometry3d& T : firstPoses(a, b)) {
     poses.push_back({T, ratingOf(compareViews(a, b, T, rough, stride))});
   }
   poses = bestOf(std::move(poses), a.center, most_first, same_first_angle, same_first_shift);
   AlignmentRounds rounds;
   rounds.partners = Partners::along_ray;
-  rounds.stride = strideFor(a, b, rough_points);
+  rounds.stride = strideFor(a, b, pair_rough_points);
   for (Rated& pose : poses) {
     pose.T_b_a = alignViews(a, b, pose.T_b_a, rounds).T_b_a;
     pose.rating = ratingOf(compareViews(a, b, pose.T_b_a, rough, rounds.stride));
@@ -142,7 +142,7 @@ ViewRelation relationAt(const CapturedView& a, const CapturedView& b, const Eige
   rounds.count = 8;
   rounds.start_distance = rounds.end_distance;
   rounds.end_distance = 0.5 * rounds.start_distance;
-  rounds.stride = strideFor(a, b, last_points);
+  rounds.stride = strideFor(a, b, pair_last_points);
   const Alignment alignment = alignViews(a, b, T_b_a, rounds);
   ViewRelation relation;
   relation.T_b_a = alignment.T_b_a;
