@@ -23,12 +23,13 @@ struct TrainingEntry {
   ViewKind kind = ViewKind::view;
   bool mesh = false;                 ///< the file is a mesh, or `builtin:` and a name: views of it are rendered
   std::optional<Symmetry> symmetry;  ///< as declared
-  /// That the object stood on, its normal towards the object; of a captured view, in its frame [m].
-  std::optional<Eigen::Hyperplane<double, 3>> plane;
-  std::optional<double> scale;  ///< metres per unit of this file, where it differs; 0 of a mesh: recognised
+  std::optional<double> scale;       ///< metres per unit of this file, where it differs; 0 of a mesh: recognised
 
   std::optional<ObjectSymmetries> symmetries;  ///< all of them, where the file lists them [m]; for the BOP errors
   std::optional<double> diameter;              ///< greatest distance between two vertices, where the file states it [m]
+
+  /// That the object stood on, its normal towards the object; of a captured view, in its frame [m].
+  std::optional<Eigen::Hyperplane<double, 3>> plane = std::nullopt;
 };
 
 /// One true instance of an object in a scene.
@@ -37,13 +38,14 @@ struct GroundTruth {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< box centre of the reference, mapped into the scene [m]
   std::string reference;  ///< the training cloud that the pose maps, named like TrainingEntry::source; may be empty
   std::optional<Eigen::Isometry3d> T_scene_reference;  ///< 6-D pose of the reference's frame [m]
+  std::optional<Symmetry> symmetry;                    ///< of the reference, where its training entry declares one
+  std::optional<double> visibility;                    ///< fraction of the surface that is not occluded, in [0, 1]
+  std::optional<std::size_t> points;                   ///< of the scene's cloud that lie on it
+
   /// Where the codebook has the reference as a view that was registered (registeredTruth()): name and pose of its
   /// object's model frame.
-  std::string model_frame;
-  std::optional<Eigen::Isometry3d> T_scene_model;
-  std::optional<Symmetry> symmetry;   ///< of the reference, where its training entry declares one
-  std::optional<double> visibility;   ///< fraction of the surface that is not occluded, in [0, 1]
-  std::optional<std::size_t> points;  ///< of the scene's cloud that lie on it
+  std::string model_frame = {};
+  std::optional<Eigen::Isometry3d> T_scene_model = std::nullopt;
 };
 
 /// One scene with all the instances that are in it.
