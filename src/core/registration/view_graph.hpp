@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,15 +11,10 @@
 #include <sks_detector/registration.hpp>
 #include <sks_detector/settings.hpp>
 
+#include "core/registration/relation_table.hpp"
 #include "core/registration/view_relation.hpp"
 
 namespace sks {
-
-/// When relative poses close a loop.
-struct LoopLimits {
-  double angle = 0.0524;  ///< [rad], 3 degrees
-  double shift = 0.005;   ///< [m], at the middle of what a view shows
-};
 
 /// The views of one object that were tied to each other.
 struct TiedViews {

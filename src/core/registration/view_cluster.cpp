@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/registration/view_cluster.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace sks {
+namespace {
+
+constexpr int completions = 2;  // rounds in which pairs are aligned anew from the common poses
+constexpr double majority = 2;  // weight of the relations that agree on a pose over that of others
+constexpr double slack = 1.5;   // of the limits of contradictions, for poses that are not optimised yet
+constexpr std::size_t compared_points = 800;
+
+}  // namespace
+
+void ViewCluster::begin(const ViewLoop& loop) {
+  first_ = std::min({loop.i, loop.j, loop.k});
+  poses_[loop.i] = Eigen::Isometry3d::Identity();
+  poses_[loop.j] = table_.pose(loop.ij, loop.i).inverse();
+  poses_[loop.k] = table_.pose(loop.ik, loop.i).inverse();
+  toFrameOf(first_);
+  optimize();
+}
+
+void ViewCluster::grow() {
+  for (std::size_t step = 0; step < poses_.size(); ++step) {  // each adds a view
+    std::vector<PoseProposal> proposals;
+    for (std::size_t view = 0; view < poses_.size(); ++view) {
+      if (!poses_[view] && !foreign_[view]) propose(view, proposals);
+    }
+    std::stable_sort(proposals.begin(), proposals.end(), [](const PoseProposal& a, const PoseProposal& b) {
+      return std::make_pair(a.edges >= fewest_edges, a.weight) > std::make_pair(b.edges >= fewest_edges, b.weight);
+    });
+    const auto allowed =
+        std::find_if(proposals.begin(), proposals.end(), [&](const PoseProposal& p) { return isAllowed(p); });
+    if (allowed == proposals.end()) return;
+    poses_[allowed->view] = allowed->T_model_view;
+    optimize();
+  }
+}
+
+bool ViewCluster::isAllowed(const PoseProposal& p) const {
+  if (contradiction(p.view, p.T_model_view) >= 0) return false;
+  return p.edges >= fewest_edges || confirmations(p) >= fewest_edges;
+}
+
+void ViewCluster::complete() {
+  for (int round = 0; round < completions; ++round) {
+    realign();
+    dropOpenLoops();
+    solve(edges_);
+    dropLoose();
+    dropForeign();
+    dropLoose();
+  }
+}
+
+void ViewCluster::orient() {
+  if (size() == 0) return;
+  first_ = firstTied();
+  const CapturedView& view = table_.views()[first_];
+  const Eigen::Isometry3d T_old_view = *poses_[first_];
+  Eigen::Isometry3d T_new_old = T_old_view.inverse();
+  if (view.plane) {  // z stays
+    const Eigen::Vector3d from = T_old_view * view.surface.sensor_origin.cast<double>() - T_old_view * view.center;
+    T_new_old = Eigen::Isometry3d(Eigen::AngleAxisd(-std::atan2(from.y(), from.x()), Eigen::Vector3d::UnitZ()));
+  }
+  for (auto& pose : poses_) {
+    if (pose) pose = T_new_old * *pose;
+  }
+}
+
+std::ptrdiff_t ViewCluster::contradiction(std::size_t view, const Eigen::Isometry3d& T_model_view) const {
+  double worst = slack;
+  std::ptrdiff_t worst_view = -1;
+  const std::vector<CapturedView>& views = table_.views();
+  for (std::size_t t = 0; t < poses_.size(); ++t) {
+    if (!poses_[t] || t == view) continue;
+    const std::size_t stride = std::max<std::size_t>(1, views[view].points.size() / compared_points);
+    const ViewAgreement agreement =
+        compareViews(views[view], views[t], poses_[t]->inverse() * T_model_view, settings_.verification, stride);
+    const double discolored = agreement.overlap() >= limits_.least_overlap ? 1 - agreement.color : 0;
+    const double against =
+        std::max(agreement.contradicted() / limits_.most_contradicted, discolored / (1 - limits_.least_color));
+    if (against <= worst) continue;
+    worst = against;
+    worst_view = std::ptrdiff_t(t);
+  }
+  return worst_view;
+}
+
+void ViewCluster::toFrameOf(std::size_t view) {
+  const Eigen::Isometry3d T_model_old = initialPose(view) * poses_[view]->inverse();
+  for (auto& pose : poses_) {
+    if (pose) pose = T_model_old * *pose;
+  }
+}
+
+Eigen::Isometry3d ViewCluster::initialPose(std::size_t view) const {
+  const CapturedView& first = table_.views()[view];
+  if (!first.plane) return Eigen::Isometry3d::Identity();
+  const Eigen::Vector3d up = first.plane->normal(), foot = first.plane->projection(first.center);
+  const Eigen::Vector3d to_camera = first.surface.sensor_origin.cast<double>() - foot;
+  Eigen::Vector3d x = to_camera - up.dot(to_camera) * up;
+  if (x.norm() < 1e-6) x = up.unitOrthogonal();
+  x.normalize();
+  Eigen::Isometry3d T_view_model = Eigen::Isometry3d::Identity();
+  T_view_model.linear() << x, up.cross(x), up;
+  T_view_model.translation() = foot;
+  return T_view_model.inverse();
+}
+
+void ViewCluster::propose(std::size_t view, std::vector<PoseProposal>& proposals) const {
+  const Eigen::Vector3d& center = table_.views()[view].center;
+  struct Linked {
+    std::size_t tied;
+    Eigen::Isometry3d T_model_view;
+    double score;
+  };
+  std::vector<Linked> links;
+  for (const std::size_t r : table_.of(view)) {
+    const std::size_t tied = table_.other(r, view);
+    if (poses_[tied]) links.push_back({tied, *poses_[tied] * table_.pose(r, view), table_.at(r).score});
+  }
+  std::map<std::size_t, double> best_of_all;  // of each tied view: whatever it says
+  for (const Linked& link : links) best_of_all[link.tied] = std::max(best_of_all[link.tied], link.score);
+  PoseProposal best;
+  for (const Linked& seed : links) {
+    std::map<std::size_t, const Linked*> agreeing;
+    for (const Linked& link : links) {
+      if (!nearlySame(link.T_model_view, seed.T_model_view, center, loops_)) continue;
+      const Linked*& known = agreeing[link.tied];
+      if (known == nullptr || link.score > known->score) known = &link;
+    }
+    double weight = 0, against = 0;
+    for (const auto& [tied, score] : best_of_all) {
+      const auto found = agreeing.find(tied);
+      (found != agreeing.end() ? weight : against) += found != agreeing.end() ? found->second->score : score;
+    }
+    if (weight < majority * against) continue;
+    if (weight > best.weight) best = {view, seed.T_model_view, weight, agreeing.size()};
+  }
+  if (best.weight > 0) proposals.push_back(best);
+}
+
+std::size_t ViewCluster::confirmations(const PoseProposal& p) const {
+  const std::vector<CapturedView>& views = table_.views();
+  std::vector<char> confirms(poses_.size(), 0);
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
+  for (std::size_t t = 0; t < poses_.size(); ++t) {
+    if (!poses_[t]) continue;
+    const Eigen::Isometry3d T_t_view = poses_[t]->inverse() * p.T_model_view;
+    const ViewRelation relation = relationAt(views[p.view], views[t], T_t_view, settings_, limits_);
+    confirms[t] =
+        relation.score > 0 && relation.determined && nearlySame(T_t_view, relation.T_b_a, views[p.view].center, loops_);
+  }
+  return std::size_t(std::count(confirms.begin(), confirms.end(), 1));
+}
+
+std::vector<PoseEdge> ViewCluster::agreeingEdges() const {
+  std::vector<PoseEdge> edges;
+  for (std::size_t a = 0; a < poses_.size(); ++a) {
+    for (std::size_t b = a + 1; b < poses_.size(); ++b) {
+      if (!poses_[a] || !poses_[b]) continue;
+      const Eigen::Isometry3d T_b_a = poses_[b]->inverse() * *poses_[a];
+      for (const std::size_t r : table_.of(a, b)) {
+        const ViewRelation& relation = table_.at(r);
+        const LoopLimits wide{2 * loops_.angle, 2 * loops_.shift};  // what drifted may still come together
+        if (!nearlySame(T_b_a, relation.T_b_a, table_.views()[a].center, wide)) continue;
+        edges.push_back({a, b, relation.T_b_a, relation.information});
+        break;
+      }
+    }
+  }
+  return edges;
+}
+
+void ViewCluster::solve(const std::vector<PoseEdge>& edges) {
+  if (size() == 0) return;
+  std::vector<PoseNode> nodes;
+  std::vector<std::size_t> node_of(poses_.size(), 0), view_of;
+  for (std::size_t v = 0; v < poses_.size(); ++v) {
+    if (!poses_[v]) continue;
+    node_of[v] = nodes.size();
+    view_of.push_back(v);
+    nodes.push_back({*poses_[v], table_.views()[v].center, table_.views()[v].plane});
+  }
+  std::vector<PoseEdge> among_nodes = edges;
+  for (PoseEdge& edge : among_nodes) {
+    edge.a = node_of[edge.a];
+    edge.b = node_of[edge.b];
+  }
+  const std::vector<Eigen::Isometry3d> solved = optimizedPoses(nodes, among_nodes, node_of[firstTied()]);
+  for (std::size_t k = 0; k < solved.size(); ++k) poses_[view_of[k]] = solved[k];
+}
+
+}  // namespace sks

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <sks_detector/registration.hpp>
+#include <sks_detector/settings.hpp>
+
+#include "core/registration/pose_graph.hpp"
+#include "core/registration/relation_table.hpp"
+
+namespace sks {
+
+constexpr std::size_t fewest_edges = 2;  ///< of a tied view: what a single pair says is not believed
+
+/// A pose of a view that is not tied yet, by relations to tied ones.
+struct PoseProposal {
+  std::size_t view = 0;
+  Eigen::Isometry3d T_model_view = Eigen::Isometry3d::Identity();
+  double weight = 0;      // of the relations that agree
+  std::size_t edges = 0;  // how many
+};
+
+/// Views that are tied to each other, beginning with one loop of three (docs/method.md, section 16). Refers to all that
+/// it is made of. Deterministic for any number of threads.
+class ViewCluster {
+public:
+  ViewCluster(const RelationTable& table, const Settings& settings, const PairLimits& limits, const LoopLimits& loops,
+              int threads)
+      : table_(table),
+        settings_(settings),
+        limits_(limits),
+        loops_(loops),
+        threads_(threads),
+        poses_(table.views().size()),
+        foreign_(table.views().size(), 0) {}
+
+  /// Ties the three views of a loop.
+  void begin(const ViewLoop& loop);
+
+  /// Ties one view after the other, those that most speaks for first.
+  void grow();
+
+  /// Whether no tied view contradicts it, and enough of them confirm it: those that proposed it, or else those that
+  /// alignment from the proposed pose brings back to it.
+  bool isAllowed(const PoseProposal& p) const;
+
+  /// Aligns all pairs anew from the common poses, drops what does not fit, and optimises again.
+  void complete();
+
+  /// Turns the model as its frame is defined by the first tied view, which may have come in late.
+  void orient();
+
+  std::size_t size() const {
+    return std::size_t(std::count_if(poses_.begin(), poses_.end(), [](const auto& pose) { return bool(pose); }));
+  }
+  double weight() const { return weight_; }
+  std::size_t first() const { return first_; }
+  const std::vector<std::optional<Eigen::Isometry3d>>& poses() const { return poses_; }
+  bool isForeign(std::size_t view) const { return foreign_[view] != 0; }
+  bool holds(const ViewLoop& loop) const { return poses_[loop.i] && poses_[loop.j] && poses_[loop.k]; }
+
+  LoopErrors loopErrors() const;
+
+  /// The tied view that contradicts a pose most, in shape or colour, if by more than the limits allow; else -1.
+  std::ptrdiff_t contradiction(std::size_t view, const Eigen::Isometry3d& T_model_view) const;
+
+  /// The best poses of a view by its relations to tied views, whether they are allowed or not.
+  void propose(std::size_t view, std::vector<PoseProposal>& proposals) const;
+
+private:
+  std::size_t confirmations(const PoseProposal& p) const;
+  void toFrameOf(std::size_t view);
+  Eigen::Isometry3d initialPose(std::size_t view) const;
+  std::size_t firstTied() const {
+    return std::size_t(std::find_if(poses_.begin(), poses_.end(), [](const auto& p) { return bool(p); }) -
+                       poses_.begin());
+  }
+  std::vector<PoseEdge> agreeingEdges() const;
+  void optimize() { solve(agreeingEdges()); }
+  void solve(const std::vector<PoseEdge>& edges);
+  /// Three edges of three views, and by how much they do not close.
+  struct EdgeLoop {
+    std::array<std::size_t, 3> edges;
+    double shift, angle;
+  };
+  std::vector<EdgeLoop> edgeLoops() const;
+  void realign();
+  void dropOpenLoops();
+  void dropLoose();
+  void dropForeign();
+  double foreignShare(std::size_t view) const;
+
+  const RelationTable& table_;
+  const Settings& settings_;
+  const PairLimits& limits_;
+  const LoopLimits& loops_;
+  int threads_;
+  std::vector<std::optional<Eigen::Isometry3d>> poses_;
+  std::vector<PoseEdge> edges_;  // after complete()
+  std::vector<double> scores_;   // of the edges
+  std::vector<char> foreign_;    // of each view: dropped for what it shows besides
+  double weight_ = 0;
+  std::size_t first_ = 0;
+};
+
+}  // namespace sks
