@@ -7,6 +7,11 @@
 #include <sks_detector/settings_file.hpp>
 
 namespace sks_detector {
+namespace {
+
+constexpr std::size_t most_objects = 20;  // whose views are kept in memory; of others they are read and compared anew
+
+}  // namespace
 
 CaptureResult CaptureModels::update(const std::string& object, const sks::DataSet& captured,
                                     const sks::Settings& settings) {
@@ -18,7 +23,11 @@ CaptureResult CaptureModels::update(const std::string& object, const sks::DataSe
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::string text = sks::settingsToYaml(settings);
   const auto found = objects_.find(object);
-  if (found != objects_.end() && found->second.settings != text) objects_.erase(found);
+  if (found != objects_.end() && found->second.settings != text) {
+    objects_.erase(found);
+  } else if (found == objects_.end() && objects_.size() >= most_objects) {
+    objects_.clear();
+  }
   sks::ObjectRegistrar& registrar =
       objects_.try_emplace(object, Known{text, sks::ObjectRegistrar(object, settings)}).first->second.registrar;
   std::size_t kept = 0;

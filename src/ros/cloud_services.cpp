@@ -114,7 +114,7 @@ std::string CloudServices::describeModel(const std::string& object, CaptureView:
     text += sks::formatted("; %zu of %zu views are registered and show %.0f %% of the directions", result.model.tied(),
                            views.size(), 100 * result.coverage.share);
     return response.missing.empty() ? text : text + "; missing: " + response.missing;
-  } catch (const sks::Error& error) {
+  } catch (const std::exception& error) {  // the view is stored all the same
     return std::string("; its place in the model is not known: ") + error.what();
   }
 }
