@@ -18,6 +18,7 @@ constexpr std::size_t tile_blocks = 16;        // whose codes stay in the cache 
 constexpr std::size_t words_of_cluster = 128;  // about
 constexpr std::size_t least_visited = 24, most_visited = 80;  // clusters, about; an eighth of them in between
 constexpr std::size_t least_kept = 160, most_kept = 256;      // of the words of clusters; a 256th of all in between
+constexpr std::size_t carried = 4;                            // times as many, before the others are dropped
 constexpr std::size_t centers_sampled = 8;                    // every one of this many
 
 constexpr float largest_bin = 1e4f;  // descriptors have the length 1; sums over far larger bins would not be finite
@@ -68,7 +69,8 @@ void keepLowest(std::size_t kept, NearestWord::Search& search, std::vector<float
   if (search.bounds.size() <= kept) return;
   sorted = search.bounds;
   std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(kept - 1), sorted.end());
-  dropAbove(sorted[kept - 1], search);
+  search.cut = std::min(search.cut, sorted[kept - 1]);
+  dropAbove(search.cut, search);
 }
 
 }  // namespace
@@ -185,18 +187,25 @@ void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* con
     const std::size_t likely = indexOfSmallest(bounds[q], words);
     if (bounds[q][likely] > limitOfTile(search, first_block) + search.query.slack) continue;
     measureLikely(search, std::uint32_t(first_block * block_words + likely), bounds[q][likely]);
-    const float highest = limitOfTile(search, first_block) + search.query.slack;
+    const float highest = std::min(search.cut, limitOfTile(search, first_block) + search.query.slack);
     const std::size_t kept = selectUpTo(highest, bounds[q], words, work.selected.data());
     for (std::size_t i = 0; i < kept; ++i) {
       search.slots.push_back(std::uint32_t(first_block * block_words + work.selected[i]));
       search.bounds.push_back(bounds[q][work.selected[i]]);
     }
+    // In the end few are kept: what is far from them need not be carried along.
+    if (!exact() && search.bounds.size() > carried * mostKept()) keepLowest(2 * mostKept(), search, work.sorted);
   }
+}
+
+/// How many words of clusters are looked at closer.
+std::size_t NearestWord::mostKept() const {
+  return std::clamp(words_.rows() / 256, least_kept, most_kept);
 }
 
 void NearestWord::finish(Search& search, Match* matches, Workspace& work) const {
   dropHopeless(search, [&](float distance) { return distance + search.query.slack; });
-  if (!exact()) keepLowest(std::clamp(words_.rows() / 256, least_kept, most_kept), search, work.sorted);
+  if (!exact()) keepLowest(mostKept(), search, work.sorted);
   merged_.merge(search.histogram, work.merged);
   merged_.distances(work.merged, search.slots, search.bounds);
   const auto highestWithin = [&](float distance) { return merged_.highestWithin(distance); };
@@ -288,6 +297,7 @@ void NearestWord::start(Search& search, const float* histogram, float factor, fl
   codes_.encode(histogram, work.projection, search.query);
   if (!exact()) estimate(search.query);
   search.best = limit;
+  search.cut = nothing;
   search.best_of_group.assign(groups_, limit);
   search.lowest_of_group.assign(groups_, nothing);
   search.slots.clear();

@@ -29,6 +29,7 @@ public:
     std::vector<float> lowest_of_group;  // bound so far of a group
     std::vector<std::uint32_t> slots;    // words that may be nearest
     std::vector<float> bounds;           // of their distances
+    float cut;                           // above it no word is among those that are looked at closer
   };
 
   /// Buffers of one thread.
@@ -78,6 +79,7 @@ private:
   void visitNearest(std::size_t count, Workspace& work) const;
   void chooseClusters(std::size_t first, std::size_t count, Workspace& work) const;
   void visitCluster(std::size_t cluster, Search* const* searches, std::size_t count, Workspace& work) const;
+  std::size_t mostKept() const;
   void visit(std::size_t first_block, std::size_t blocks, Search* const* searches, std::size_t count,
              Workspace& work) const;
   void finish(Search& search, Match* matches, Workspace& work) const;
