@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include <pcl/console/print.h>
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
 #include <pcl/surface/gp3.h>
@@ -38,6 +39,7 @@ std::vector<Eigen::Vector3i> greedyTriangles(const std::vector<Eigen::Vector3f>&
   projection.setNormalConsistency(true);
   projection.setInputCloud(cloud);
   projection.setSearchMethod(pcl::make_shared<pcl::search::KdTree<pcl::PointNormal>>());
+  pcl::console::setVerbosityLevel(pcl::console::L_ERROR);  // its warnings are of its own parameters
   std::vector<pcl::Vertices> polygons;
   projection.reconstruct(polygons);
 
