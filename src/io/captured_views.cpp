@@ -158,7 +158,7 @@ CapturedViews::Removed CapturedViews::removeLast(const std::string& object) {
   } else {
     storeFile(file_, root);
   }
-  const Removed removed{(fs::path(folder_) / cloud).lexically_normal().string(), views - 1};
+  Removed removed{(fs::path(folder_) / cloud).lexically_normal().string(), views - 1};
   if (fs::path(removed.file).parent_path() == objectFolder(object)) fs::remove(removed.file, ignored);
   return removed;
 }

@@ -83,9 +83,8 @@ void ObjectRegistrar::add(const TrainingSample& sample) {
   views_->sources.push_back(sample.source);
   const std::vector<CapturedView>& views = views_->views;
   const std::size_t b = views.size() - 1;
-  const int threads = views_->threads;
   std::vector<std::vector<ViewRelation>> of_pairs(b);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+#pragma omp parallel for schedule(dynamic, 1) num_threads(views_->threads)
   for (std::size_t a = 0; a < b; ++a) of_pairs[a] = relateViews(views[a], views[b], views_->settings, views_->limits);
   for (std::size_t a = 0; a < b; ++a) {
     for (ViewRelation& relation : of_pairs[a]) {

@@ -57,8 +57,8 @@ ViewRegistration registerViews(const std::vector<TrainingSample>& samples, const
                                const Progress& progress, const Stages& stages) {
   validate(settings);
   ViewRegistration registration{samples, capturedObjects(samples)};
-  std::vector<RegisteredObject>& objects = registration.objects;
   if (settings.training.register_views != RegisterViews::on) {
+    std::vector<RegisteredObject>& objects = registration.objects;
     objects.erase(std::remove_if(objects.begin(), objects.end(),
                                  [&](const RegisteredObject& object) { return !planesKnown(object, samples); }),
                   objects.end());

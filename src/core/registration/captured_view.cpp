@@ -38,9 +38,9 @@ CapturedView::CapturedView(Surface all, const Keypoints& detected, const Descrip
   for (const Eigen::Vector3f& p : positions) squares += (p.cast<double>() - center).squaredNorm();
   radius = std::sqrt(squares / double(std::max<std::size_t>(1, positions.size())));
   points = PointGrid(positions, row_edge);
-  for (const std::uint32_t source : points.source) {
-    normals.push_back(surface.normal(sources[source]));
-    if (surface.hasColor()) colors.push_back(surface.colorAt(sources[source]));
+  for (const std::uint32_t i : points.source) {
+    normals.push_back(surface.normal(sources[i]));
+    if (surface.hasColor()) colors.push_back(surface.colorAt(sources[i]));
   }
 }
 

@@ -13,7 +13,6 @@ constexpr float most_joined = 2;          // times an object's extents: a part m
 constexpr float nearly_square = 0.8f;     // width over length: the axes of its extents may lie anyhow
 constexpr float same_end = 0.01f;         // [m] ends that near need not be tried, too
 constexpr std::size_t most_of_part = 24;  // poses
-constexpr double least_of_best = 0.5;     // pre-score beside that of the best pose at the part
 
 bool mayBelong(const RestingModel& model, const PilePart& part) {
   const BaseExtent& base = model.rest.base;
@@ -109,8 +108,6 @@ std::vector<PoseCandidate> candidatesAt(const PilePart& part, const VerifiedMode
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const PoseCandidate& a, const PoseCandidate& b) { return a.pre_score > b.pre_score; });
   if (candidates.size() > most_of_part) candidates.resize(most_of_part);
-  const auto promising = [&](const PoseCandidate& c) { return c.pre_score >= least_of_best * candidates[0].pre_score; };
-  candidates.erase(std::find_if_not(candidates.begin(), candidates.end(), promising), candidates.end());
   return candidates;
 }
 
