@@ -145,7 +145,7 @@ void expectSameAxesAndHeight(const std::vector<Eigen::Isometry3d>& changes) {
   }
 }
 
-/// The first tied view, which the frame refers to.
+/// The first tied view; the frame refers to it where nothing before it was left out later.
 const RegisteredView& firstOf(const RegisteredObject& object) {
   return *std::find_if(object.views.begin(), object.views.end(), [](const auto& view) { return view.T_model_view; });
 }
