@@ -63,8 +63,10 @@ struct ViewRegistration {
 /// views of their own, each with the reason. Which objects: `training.register_views`.
 ///
 /// The frame: where the supporting planes are known (TrainingSample::plane), z is their normal and x points to where
-/// the first tied view was taken from; else the axes are those of the first tied view's camera. The origin is that of
-/// `training.origin`. Deterministic, for any number of threads.
+/// the first view was taken from; else the axes are those of the first view's camera. That is the first one of those
+/// that could be tied when there were only the samples up to them, so the axes stay when samples are added at the end;
+/// if it is no longer tied, a view that was tied together with it hands the axes over, where there is one. The origin
+/// is that of `training.origin`. Deterministic, for any number of threads.
 /// @throws what train() throws; Error(cancelled)
 ViewRegistration registerViews(const std::vector<TrainingSample>& samples, const Settings& settings,
                                const Progress& progress = {}, const Stages& stages = {});

@@ -58,15 +58,20 @@ void ViewCluster::complete() {
   }
 }
 
-void ViewCluster::orient() {
-  if (size() == 0) return;
-  first_ = firstTied();
-  const CapturedView& view = table_.views()[first_];
-  const Eigen::Isometry3d T_old_view = *poses_[first_];
-  Eigen::Isometry3d T_new_old = T_old_view.inverse();
-  if (view.plane) {  // z stays
-    const Eigen::Vector3d from = T_old_view * view.surface.sensor_origin.cast<double>() - T_old_view * view.center;
-    T_new_old = Eigen::Isometry3d(Eigen::AngleAxisd(-std::atan2(from.y(), from.x()), Eigen::Vector3d::UnitZ()));
+/// Of the direction from what a view shows to its camera, in the plane z = 0 [rad].
+double ViewCluster::headingOf(std::size_t view, const Eigen::Isometry3d& T_model_view) const {
+  const CapturedView& seen = table_.views()[view];
+  const Eigen::Vector3d direction = T_model_view.linear() * (seen.surface.sensor_origin.cast<double>() - seen.center);
+  return std::atan2(direction.y(), direction.x());
+}
+
+void ViewCluster::orient(std::size_t by, const std::optional<Eigen::Isometry3d>& T_model_view) {
+  first_ = by;
+  const Eigen::Isometry3d T_old_view = *poses_[by];
+  Eigen::Isometry3d T_new_old = T_model_view.value_or(Eigen::Isometry3d::Identity()) * T_old_view.inverse();
+  if (table_.views()[by].plane) {  // z stays
+    const double heading = T_model_view ? headingOf(by, *T_model_view) : 0;
+    T_new_old = Eigen::AngleAxisd(heading - headingOf(by, T_old_view), Eigen::Vector3d::UnitZ());
   }
   for (auto& pose : poses_) {
     if (pose) pose = T_new_old * *pose;

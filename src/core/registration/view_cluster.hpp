@@ -54,8 +54,9 @@ public:
   /// Aligns all pairs anew from the common poses, drops what does not fit, and optimises again.
   void complete();
 
-  /// Turns the model as its frame is defined by the first tied view, which may have come in late.
-  void orient();
+  /// Moves the model so that a view, which must be tied, gets a pose: where its plane is known, the turn of that about
+  /// z. Without a pose: x points to where the view was taken from, or else the model has the frame of the view.
+  void orient(std::size_t by, const std::optional<Eigen::Isometry3d>& T_model_view = std::nullopt);
 
   std::size_t size() const {
     return std::size_t(std::count_if(poses_.begin(), poses_.end(), [](const auto& pose) { return bool(pose); }));
@@ -63,6 +64,12 @@ public:
   double weight() const { return weight_; }
   std::size_t first() const { return first_; }
   const std::vector<std::optional<Eigen::Isometry3d>>& poses() const { return poses_; }
+  /// Of a cluster that is not empty.
+  std::size_t firstTied() const {
+    return std::size_t(std::find_if(poses_.begin(), poses_.end(), [](const auto& p) { return bool(p); }) -
+                       poses_.begin());
+  }
+  bool isTied(std::size_t view) const { return bool(poses_[view]); }
   bool isForeign(std::size_t view) const { return foreign_[view] != 0; }
   bool holds(const ViewLoop& loop) const { return poses_[loop.i] && poses_[loop.j] && poses_[loop.k]; }
 
@@ -76,12 +83,9 @@ public:
 
 private:
   std::size_t confirmations(const PoseProposal& p) const;
+  double headingOf(std::size_t view, const Eigen::Isometry3d& T_model_view) const;
   void toFrameOf(std::size_t view);
   Eigen::Isometry3d initialPose(std::size_t view) const;
-  std::size_t firstTied() const {
-    return std::size_t(std::find_if(poses_.begin(), poses_.end(), [](const auto& p) { return bool(p); }) -
-                       poses_.begin());
-  }
   std::vector<PoseEdge> agreeingEdges() const;
   void optimize() { solve(agreeingEdges()); }
   void solve(const std::vector<PoseEdge>& edges);

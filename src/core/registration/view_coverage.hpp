@@ -14,8 +14,8 @@ struct ViewCoverage {
   std::string missing;  ///< the others, in words, e.g. "90 to 180 degrees"; empty if there are none
 };
 
-/// Directions are turns about the plane's normal, counter-clockwise seen from above; 0 is where the first tied view was
-/// taken from. A view shows those within 30 degrees.
+/// Directions are turns about the plane's normal, counter-clockwise seen from above; 0 is where x points to: where the
+/// first view was taken from. A view shows those within 30 degrees.
 ViewCoverage coverageOf(const RegisteredObject& object);
 
 }  // namespace sks

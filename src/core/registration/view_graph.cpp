@@ -16,16 +16,26 @@ constexpr int growths = 2;  // views that drifted poses kept out come in once th
 
 /// What right relations contradict is noise, and about the same for all: the better quarter of the relations shows how
 /// much that is. Where there is little of it, less is allowed.
-PairLimits limitsFor(const std::vector<ViewRelation>& relations, PairLimits limits) {
+PairLimits limitsFor(const std::vector<ViewRelation>& relations, std::size_t count, PairLimits limits) {
   std::vector<double> shares;
   for (const ViewRelation& relation : relations) {
-    if (relation.determined) shares.push_back(relation.agreement.contradicted());
+    if (relation.b < count && relation.determined) shares.push_back(relation.agreement.contradicted());
   }
   if (shares.empty()) return limits;
   const auto quarter = shares.begin() + std::ptrdiff_t(shares.size() / 4);
   std::nth_element(shares.begin(), quarter, shares.end());
   limits.most_contradicted = std::min(limits.most_contradicted, noise_share + noise_factor * *quarter);
   return limits;
+}
+
+/// Those among the first views, so many, that contradict no more than is allowed.
+std::vector<ViewRelation> allowedRelations(const std::vector<ViewRelation>& found, std::size_t count,
+                                           const PairLimits& limits) {
+  std::vector<ViewRelation> relations;
+  std::copy_if(found.begin(), found.end(), std::back_inserter(relations), [&](const ViewRelation& relation) {
+    return relation.b < count && relation.agreement.contradicted() <= limits.most_contradicted;
+  });
+  return relations;
 }
 
 /// Why a view could not be tied, in words.
@@ -53,46 +63,94 @@ std::string reasonOf(std::size_t view, const std::optional<ViewCluster>& tied, c
   return "no two views agree on its pose closely enough";
 }
 
+/// How views are tied: all that stays the same, whichever of them are there.
+struct Rules {
+  const Settings& settings;
+  const PairLimits& widest;
+  const LoopLimits& loops;
+  int threads;
+};
+
+/// The largest cluster of some views. Refers to all that it is made of, so it cannot be copied.
+class LargestCluster {
+public:
+  /// @param count only relations among the first views, so many
+  LargestCluster(const std::vector<CapturedView>& views, const std::vector<ViewRelation>& found, std::size_t count,
+                 const Rules& rules)
+      : limits_(limitsFor(found, count, rules.widest)),
+        relations_(allowedRelations(found, count, limits_)),
+        table_(views, relations_) {
+    std::vector<ViewCluster> tried;
+    for (const ViewLoop& loop : closedLoops(table_, rules.loops)) {
+      if (tried.size() >= most_seeds) break;
+      if (std::any_of(tried.begin(), tried.end(), [&](const ViewCluster& cluster) { return cluster.holds(loop); }))
+        continue;
+      ViewCluster cluster(table_, rules.settings, limits_, rules.loops, rules.threads);
+      cluster.begin(loop);
+      for (int round = 0; round < growths; ++round) {
+        cluster.grow();
+        cluster.complete();
+      }
+      tried.push_back(cluster);
+    }
+    for (const ViewCluster& cluster : tried) {
+      const auto key = [](const ViewCluster& c) { return std::make_pair(c.size(), c.weight()); };
+      if (cluster.size() > fewest_edges && (!tied_ || key(cluster) > key(*tied_))) tied_.emplace(cluster);
+    }
+  }
+  LargestCluster(const LargestCluster&) = delete;
+  LargestCluster& operator=(const LargestCluster&) = delete;
+
+  const RelationTable& table() const { return table_; }
+  const std::vector<ViewRelation>& relations() const { return relations_; }
+  const std::optional<ViewCluster>& tied() const { return tied_; }  ///< none: nothing could be tied
+  ViewCluster& cluster() { return *tied_; }
+
+private:
+  PairLimits limits_;
+  std::vector<ViewRelation> relations_;
+  RelationTable table_;
+  std::optional<ViewCluster> tied_;
+};
+
+/// Gives the model the frame that it had when views could be tied first, while there were only those before them: so
+/// the frame stays when views are added. It is that of the first view that was tied then; if that is no longer tied, it
+/// is handed over by a view that was tied together with it.
+void orient(ViewCluster& tied, const std::vector<CapturedView>& views, const std::vector<ViewRelation>& found,
+            const Rules& rules) {
+  std::optional<std::size_t> first;
+  for (std::size_t count = fewest_edges + 1; count < views.size(); ++count) {
+    LargestCluster earlier(views, found, count, rules);
+    if (!earlier.tied()) continue;
+    if (!first) first = earlier.tied()->firstTied();
+    if (tied.isTied(*first)) return tied.orient(*first);
+    if (!earlier.tied()->isTied(*first)) continue;
+    earlier.cluster().orient(*first);
+    for (std::size_t v = 0; v < count; ++v) {
+      if (earlier.tied()->isTied(v) && tied.isTied(v)) return tied.orient(v, earlier.tied()->poses()[v]);
+    }
+  }
+  tied.orient(tied.firstTied());
+}
+
 }  // namespace
 
 TiedViews tieViews(const std::vector<CapturedView>& views, const std::vector<ViewRelation>& found,
-                   const Settings& settings, const PairLimits& widest, const LoopLimits& loop_limits, int threads) {
-  const PairLimits limits = limitsFor(found, widest);
-  std::vector<ViewRelation> relations;
-  std::copy_if(found.begin(), found.end(), std::back_inserter(relations), [&](const ViewRelation& relation) {
-    return relation.agreement.contradicted() <= limits.most_contradicted;
-  });
-  const RelationTable table(views, relations);
-  const std::vector<ViewLoop> loops = closedLoops(table, loop_limits);
-  std::optional<ViewCluster> best;
-  std::vector<ViewCluster> tried;
-  for (const ViewLoop& loop : loops) {
-    if (tried.size() >= most_seeds) break;
-    if (std::any_of(tried.begin(), tried.end(), [&](const ViewCluster& cluster) { return cluster.holds(loop); }))
-      continue;
-    ViewCluster cluster(table, settings, limits, loop_limits, threads);
-    cluster.begin(loop);
-    for (int round = 0; round < growths; ++round) {
-      cluster.grow();
-      cluster.complete();
-    }
-    cluster.orient();
-    tried.push_back(cluster);
-  }
-  for (const ViewCluster& cluster : tried) {
-    const auto key = [](const ViewCluster& c) { return std::make_pair(c.size(), c.weight()); };
-    if (cluster.size() > fewest_edges && (!best || key(cluster) > key(*best))) best.emplace(cluster);
-  }
+                   const Settings& settings, const PairLimits& limits, const LoopLimits& loops, int threads) {
+  const Rules rules{settings, limits, loops, threads};
+  LargestCluster best(views, found, views.size(), rules);
   TiedViews result;
   result.T_model_view.resize(views.size());
   result.reasons.resize(views.size());
-  if (best) {
-    result.T_model_view = best->poses();
-    result.first = best->first();
-    result.loops = best->loopErrors();
-  }
   for (std::size_t v = 0; v < views.size(); ++v) {
-    if (!result.T_model_view[v]) result.reasons[v] = reasonOf(v, best, table, relations);
+    if (!best.tied() || !best.tied()->isTied(v))
+      result.reasons[v] = reasonOf(v, best.tied(), best.table(), best.relations());
+  }
+  if (best.tied()) {
+    orient(best.cluster(), views, found, rules);
+    result.T_model_view = best.tied()->poses();
+    result.first = best.tied()->first();
+    result.loops = best.tied()->loopErrors();
   }
   return result;
 }

@@ -20,14 +20,15 @@ namespace sks {
 struct TiedViews {
   std::vector<std::optional<Eigen::Isometry3d>> T_model_view;  ///< of each view; none: it could not be tied
   std::vector<std::string> reasons;  ///< why not, in words, other views by their `source`; empty for tied ones
-  std::optional<std::size_t> first;  ///< the first tied view, which the frame refers to; none: nothing was tied
+  std::optional<std::size_t> first;  ///< a tied view that the frame was taken from; none: nothing was tied
   LoopErrors loops;
 };
 
 /// Ties views by their relative poses. A relative pose is believed only together with others that close a loop with it,
 /// and only while what the cameras saw of the whole agrees; the poses of all are then optimised together. Where planes
 /// are known, they lie in z = 0 of the model and its x axis points to where the first view was taken from; else the
-/// model frame is that of the first view. Deterministic for any number of threads.
+/// model frame is that of the first view. The first view is that of registerViews(). Deterministic for any number of
+/// threads.
 /// @param relations of relateViews() of all pairs
 TiedViews tieViews(const std::vector<CapturedView>& views, const std::vector<ViewRelation>& relations,
                    const Settings& settings, const PairLimits& limits, const LoopLimits& loops, int threads);
