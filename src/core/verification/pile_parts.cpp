@@ -168,8 +168,7 @@ std::vector<PilePart> takeSticks(OrientedPoints& points, float spacing, const Ei
     const Stick stick = mostSupportedStick(positions, up, 0.5f * width + noise_beside, spacing, random);
     if (stick.members.empty()) break;
     const Eigen::Vector3f across = up - up.dot(stick.axis) * stick.axis;
-    if (across.norm() < lying) break;
-    sticks.push_back(partOf(at(positions, stick.members), across.normalized(), true));
+    if (across.norm() > lying) sticks.push_back(partOf(at(positions, stick.members), across.normalized(), true));
     points = withoutTaken(points, stick.members);
   }
   return sticks;

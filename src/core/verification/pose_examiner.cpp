@@ -133,6 +133,19 @@ Hypothesis PoseExaminer::fitted(Hypothesis hypothesis) const {
   return hypothesis;
 }
 
+template <typename Fit, typename Agreement>
+Hypothesis PoseExaminer::bestOfTurned(Hypothesis best, Fit&& fit, Agreement&& agreement) const {
+  double most = agreement(best);
+  for (Hypothesis turned : turnedAround(best)) {
+    turned = fit(std::move(turned));
+    const double agrees = agreement(turned);
+    if (agrees <= most) continue;
+    most = agrees;
+    best = std::move(turned);
+  }
+  return best;
+}
+
 Hypothesis PoseExaminer::bestTurned(const Hypothesis& hypothesis) const {
   const TrainingView& view = codebook_.views[hypothesis.view];
   if (!scene_.comparesColor(view) || models_.surfaces[hypothesis.view]->views.size() < 2) return hypothesis;
@@ -142,16 +155,8 @@ Hypothesis PoseExaminer::bestTurned(const Hypothesis& hypothesis) const {
     const SightLines lines = sightLines(h);
     return evidence * lines.agreement() * lines.pattern;
   };
-  Hypothesis best = hypothesis;
-  double most = evidenceAlongRays(best);
-  for (Hypothesis turned : turnedAround(hypothesis)) {
-    turned = refined(std::move(turned));
-    const double evidence = evidenceAlongRays(turned);
-    if (evidence <= most) continue;
-    most = evidence;
-    best = std::move(turned);
-  }
-  return best;
+  return bestOfTurned(
+      hypothesis, [&](Hypothesis h) { return refined(std::move(h)); }, evidenceAlongRays);
 }
 
 std::vector<Hypothesis> PoseExaminer::turnedAround(const Hypothesis& hypothesis) const {
@@ -178,15 +183,8 @@ Hypothesis PoseExaminer::finished(const Hypothesis& hypothesis) const {
                                           h.T_scene_model, last_points, CorrespondenceSearch::along_ray);
     return fractionOf(pose) * std::sqrt(coverageOf(pose)) * sightLines(h).agreement();
   };
-  double most = agreement(best);
-  for (Hypothesis turned : turnedAround(best)) {
-    turned = fitted(std::move(turned));
-    const double agrees = agreement(turned);
-    if (agrees <= most) continue;
-    most = agrees;
-    best = std::move(turned);
-  }
-  return best;
+  return bestOfTurned(
+      std::move(best), [&](Hypothesis h) { return fitted(std::move(h)); }, agreement);
 }
 
 double PoseExaminer::evidenceAt(Hypothesis& hypothesis, PoseEvidence& pose, std::size_t most_points,

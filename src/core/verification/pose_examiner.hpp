@@ -76,6 +76,9 @@ public:
 
 private:
   Hypothesis fitted(Hypothesis hypothesis) const;
+  /// Of a pose and those turned around it, after a fit, that which agrees most.
+  template <typename Fit, typename Agreement>
+  Hypothesis bestOfTurned(Hypothesis best, Fit&& fit, Agreement&& agreement) const;
   std::vector<Hypothesis> turnedAround(const Hypothesis& hypothesis) const;
   double evidenceAt(Hypothesis& hypothesis, PoseEvidence& pose, std::size_t most_points,
                     CorrespondenceSearch search) const;
