@@ -43,6 +43,11 @@ ModelSurface merged(const Codebook& codebook, std::vector<std::uint32_t> views) 
     surface.normals.push_back(view.surface_normals[i]);
     if (colored) surface.colors.push_back(view.surface_colors[i]);
   }
+  for (const std::uint32_t v : views) {
+    const TrainingView& view = codebook.views[v];
+    surface.centers.push_back(view.center());
+    surface.directions.push_back((view.sensor_origin - view.center()).stableNormalized());
+  }
   surface.views = std::move(views);
   return surface;
 }

@@ -19,6 +19,8 @@ struct ModelSurface {
   std::vector<Eigen::Vector3f> colors;   ///< as in Surface; empty without colour
   float resolution = 0;                  ///< [m]
   std::vector<std::uint32_t> views;      ///< that it is made of: indices into Codebook::views
+  std::vector<Eigen::Vector3f> centers;  ///< of the boxes of these views [m]
+  std::vector<Eigen::Vector3f> directions;  ///< unit vectors from there to the sensors that took them
 };
 
 /// For each view of the codebook the surface in its frame; views of one object and frame share one. The same for any

@@ -78,7 +78,7 @@ private:
   }
 
   std::uint32_t viewOf(const Eigen::Isometry3d& T) const {
-    return nearestView(*models_.codebook, *model_.surface, scene_.surface.sensor_origin, T);
+    return nearestView(*model_.surface, scene_.surface.sensor_origin, T);
   }
 
   void look(const Eigen::Isometry3d& T, std::uint32_t view) {

@@ -24,7 +24,7 @@ constexpr float inner_share = 0.85f, full_rank = 0.9f;
 constexpr std::size_t fewest_of_core = 4;
 constexpr float step_in_core = 1.6f;  // spacings
 // Sticks
-constexpr int line_trials = 500;
+constexpr int line_trials = 500, most_picks = 16;  // ... of a second point
 constexpr float noise_beside = 0.003f;  // [m]
 constexpr float step_in_stick = 3;      // spacings without a point end it
 constexpr float shortest_stick = 5;     // length over width
@@ -137,22 +137,52 @@ Stick stickAlong(const Positions& points, const Eigen::Vector3f& up, const Eigen
   return stick;
 }
 
-/// RANSAC: of lines through two random points, at least the shortest stick's length apart but no more than twice that,
-/// the one with the longest run of points.
-Stick mostSupportedStick(const Positions& points, const Eigen::Vector3f& up, float radius, float spacing,
-                         std::mt19937& random) {
-  const float apart = radius * shortest_stick;
-  Stick best;
+struct Line {
+  Eigen::Vector3f origin, axis;
+};
+
+/// Lines through two random points, at least the shortest stick's length apart but no more than twice that.
+std::vector<Line> randomLines(const Positions& points, float apart, std::mt19937& random) {
+  std::vector<Line> lines;
   for (int trial = 0; trial < line_trials; ++trial) {
     const Eigen::Vector3f& a = points[random() % points.size()];
-    Indices around;
-    for (std::uint32_t i = 0; i < points.size(); ++i) {
-      const float squared = (points[i] - a).squaredNorm();
-      if (squared > apart * apart && squared < 4 * apart * apart) around.push_back(i);
+    for (int pick = 0; pick < most_picks; ++pick) {
+      const Eigen::Vector3f to_b = points[random() % points.size()] - a;
+      if (to_b.squaredNorm() <= apart * apart || to_b.squaredNorm() >= 4 * apart * apart) continue;
+      lines.push_back({a, to_b.normalized()});
+      break;
     }
-    if (around.empty()) continue;
-    const Eigen::Vector3f& b = points[around[random() % around.size()]];
-    Stick stick = stickAlong(points, up, a, (b - a).normalized(), radius, spacing);
+  }
+  return lines;
+}
+
+/// How many points are near to a line: without branches, so that the compiler takes several at once.
+std::size_t countAlong(const OrientedPoints& points, const Line& line, float radius) {
+  const float *x = points.x.data(), *y = points.y.data(), *z = points.z.data();
+  const Eigen::Vector3f o = line.origin, n = line.axis;
+  const float limit = radius * radius;
+  const int size = int(points.size());
+  int count = 0;
+  for (int i = 0; i < size; ++i) {
+    const float dx = x[i] - o.x(), dy = y[i] - o.y(), dz = z[i] - o.z();
+    const float t = dx * n.x() + dy * n.y() + dz * n.z();
+    count += int(dx * dx + dy * dy + dz * dz - t * t < limit);
+  }
+  return std::size_t(count);
+}
+
+/// RANSAC: of random lines the one with the longest run of points.
+Stick mostSupportedStick(const OrientedPoints& points, const Positions& positions, const Eigen::Vector3f& up,
+                         float radius, float spacing, std::mt19937& random) {
+  std::vector<std::pair<std::size_t, Line>> lines;  // and the points along each
+  for (const Line& line : randomLines(positions, radius * shortest_stick, random)) {
+    lines.emplace_back(countAlong(points, line, radius), line);
+  }
+  std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  Stick best;
+  for (const auto& [count, line] : lines) {
+    if (count < fewest_of_part || count <= best.members.size()) break;
+    Stick stick = stickAlong(positions, up, line.origin, line.axis, radius, spacing);
     if (stick.members.size() > best.members.size()) best = std::move(stick);
   }
   return best;
@@ -165,7 +195,7 @@ std::vector<PilePart> takeSticks(OrientedPoints& points, float spacing, const Ei
   std::vector<PilePart> sticks;
   while (points.size() >= fewest_of_part && sticks.size() < most_sticks) {
     const Positions positions = allPositions(points);
-    const Stick stick = mostSupportedStick(positions, up, 0.5f * width + noise_beside, spacing, random);
+    const Stick stick = mostSupportedStick(points, positions, up, 0.5f * width + noise_beside, spacing, random);
     if (stick.members.empty()) break;
     const Eigen::Vector3f across = up - up.dot(stick.axis) * stick.axis;
     if (across.norm() > lying) sticks.push_back(partOf(at(positions, stick.members), across.normalized(), true));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/verification/refinement.hpp"
@@ -72,15 +73,18 @@ float VerifiedModels::stickWidth() const {
   return thinnest;
 }
 
-std::uint32_t nearestView(const Codebook& codebook, const ModelSurface& surface, const Eigen::Vector3f& sensor_origin,
+std::uint32_t nearestView(const ModelSurface& surface, const Eigen::Vector3f& sensor_origin,
                           const Eigen::Isometry3d& T_scene_model) {
   const Eigen::Vector3f sensor = (T_scene_model.inverse() * sensor_origin.cast<double>()).cast<float>();
-  const auto cosine = [&](std::uint32_t v) {
-    const TrainingView& view = codebook.views[v];
-    return (view.sensor_origin - view.center()).stableNormalized().dot((sensor - view.center()).stableNormalized());
-  };
-  return *std::max_element(surface.views.begin(), surface.views.end(),
-                           [&](std::uint32_t a, std::uint32_t b) { return cosine(a) < cosine(b); });
+  std::size_t nearest = 0;
+  float highest = -std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < surface.views.size(); ++i) {
+    const float cosine = surface.directions[i].dot((sensor - surface.centers[i]).stableNormalized());
+    if (cosine <= highest) continue;
+    highest = cosine;
+    nearest = i;
+  }
+  return surface.views[nearest];
 }
 
 PoseExaminer::PoseExaminer(const VerifiedModels& models, const SceneView& scene,
@@ -165,7 +169,7 @@ std::vector<Hypothesis> PoseExaminer::turnedAround(const Hypothesis& hypothesis)
   for (const auto& T : turnedPoses(hypothesis.T_scene_model, center, hypothesis.box_size)) {
     Hypothesis turned = hypothesis;
     turned.T_scene_model = T;
-    turned.view = nearestView(codebook_, *models_.surfaces[turned.view], scene_.surface.sensor_origin, T);
+    turned.view = nearestView(*models_.surfaces[turned.view], scene_.surface.sensor_origin, T);
     all.push_back(std::move(turned));
   }
   return all;

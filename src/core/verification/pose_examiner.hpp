@@ -42,7 +42,7 @@ struct VerifiedModels {
 };
 
 /// Of the views that a surface is made of the one that was taken most nearly from where the sensor is now.
-std::uint32_t nearestView(const Codebook& codebook, const ModelSurface& surface, const Eigen::Vector3f& sensor_origin,
+std::uint32_t nearestView(const ModelSurface& surface, const Eigen::Vector3f& sensor_origin,
                           const Eigen::Isometry3d& T_scene_model);
 
 /// A hypothesis with its evidence, and the part of the scene that it explains.

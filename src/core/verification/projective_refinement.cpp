@@ -81,14 +81,13 @@ namespace sks {
 
 HWY_EXPORT(sumPairsImpl);
 
-Eigen::Isometry3d refineAlongRays(const TrainingView& view, const SceneView& scene, const RefinementSettings& settings,
+Eigen::Isometry3d refineAlongRays(const SurfaceSample& sample, const SceneView& scene,
+                                  const RefinementSettings& settings, int rounds,
                                   const Eigen::Isometry3d& T_scene_model) {
   if (scene.range_image.cells().empty()) return T_scene_model;
-  thread_local SurfaceSample sample;  // keeps its buffers from pose to pose
-  const std::size_t stride = view.surface_points.size() / std::size_t(settings.max_points) + 1;
-  const Eigen::Vector3d centroid = sample.take(view, stride).cast<double>();
+  const Eigen::Vector3d centroid = sample.centroid.cast<double>();
   Eigen::Isometry3d refined = T_scene_model;
-  for (int i = 0; i < settings.iterations; ++i) {
+  for (int i = 0; i < rounds; ++i) {
     Round round;
     round.T_scene_model = refined.matrix().topRows<3>().cast<float>();
     round.pivot = (refined * centroid).cast<float>();
@@ -101,6 +100,13 @@ Eigen::Isometry3d refineAlongRays(const TrainingView& view, const SceneView& sce
     refined = system.motion() * refined;
   }
   return refined;
+}
+
+Eigen::Isometry3d refineAlongRays(const TrainingView& view, const SceneView& scene, const RefinementSettings& settings,
+                                  const Eigen::Isometry3d& T_scene_model) {
+  thread_local SurfaceSample sample;  // keeps its buffers from pose to pose
+  sample.take(view, view.surface_points.size() / std::size_t(settings.max_points) + 1);
+  return refineAlongRays(sample, scene, settings, settings.iterations, T_scene_model);
 }
 
 }  // namespace sks

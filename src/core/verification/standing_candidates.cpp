@@ -59,8 +59,7 @@ std::vector<PoseCandidate> standingCandidates(const VerifiedModels& models, cons
         candidate.object = model.object;
         candidate.T_scene_model =
             placed(model, thing, float(2 * EIGEN_PI * k / upright_rotations), scene.surface.sensor_origin);
-        candidate.view =
-            nearestView(*models.codebook, *model.surface, scene.surface.sensor_origin, candidate.T_scene_model);
+        candidate.view = nearestView(*model.surface, scene.surface.sensor_origin, candidate.T_scene_model);
         candidate.pre_score =
             roughSupport(models.rough[candidate.view], scene, candidate.T_scene_model).scoreWithoutVotes();
         if (candidate.pre_score > best.pre_score) best = candidate;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <utility>
 
@@ -150,14 +151,20 @@ StandingThing describedThing(const std::vector<Eigen::Vector3f>& points, const F
   return thing;
 }
 
+/// Things that touch each other, as they may.
+struct Pile {
+  OrientedPoints points;
+  Eigen::Vector3f up = Eigen::Vector3f::UnitZ();
+};
+
 /// What stands on one plane.
 struct OnePlane {
   std::vector<StandingThing> things;
-  std::vector<PilePart> parts;
+  std::vector<Pile> piles;
   std::vector<std::uint32_t> rises;  // scene points so near the plane that they could be taken for it
 };
 
-OnePlane standingOn(const LargePlane& plane, const Surface& scene, float largest, float stick_width) {
+OnePlane standingOn(const LargePlane& plane, const Surface& scene, float largest) {
   OnePlane standing;
   const Frame frame = fittedFrame(scene, plane);
   std::vector<Eigen::Vector3f> points;
@@ -181,12 +188,23 @@ OnePlane standingOn(const LargePlane& plane, const Surface& scene, float largest
     const StandingThing thing = describedThing(members, frame);
     if (stands && thing.base.length <= largest + noise_at_edges) standing.things.push_back(thing);
     if (!stands || cluster.size() > most_of_pile) continue;
-    OrientedPoints oriented;
-    for (const std::uint32_t i : cluster) oriented.add(thinned[i], normals[i]);
-    const std::vector<PilePart> parts = pileParts(oriented, 0.5f * gap, frame.up, stick_width);
-    standing.parts.insert(standing.parts.end(), parts.begin(), parts.end());
+    OrientedPoints pile;
+    for (const std::uint32_t i : cluster) pile.add(thinned[i], normals[i]);
+    standing.piles.push_back({std::move(pile), frame.up});
   }
   return standing;
+}
+
+/// Of all piles, in their order.
+std::vector<PilePart> partsOf(const std::vector<Pile>& piles, float stick_width, int threads) {
+  std::vector<std::vector<PilePart>> of_piles(piles.size());
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+  for (std::size_t i = 0; i < piles.size(); ++i) {
+    of_piles[i] = pileParts(piles[i].points, 0.5f * gap, piles[i].up, stick_width);
+  }
+  std::vector<PilePart> all;
+  for (const auto& parts : of_piles) all.insert(all.end(), parts.begin(), parts.end());
+  return all;
 }
 
 }  // namespace
@@ -197,15 +215,17 @@ StandingThings findStandingThings(const Surface& scene, const std::vector<LargeP
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t p = 0; p < planes.size(); ++p) {
     const bool side_of_a_thing = planes[p].extent < largest;
-    if (!side_of_a_thing) found[p] = standingOn(planes[p], scene, largest, stick_width);
+    if (!side_of_a_thing) found[p] = standingOn(planes[p], scene, largest);
   }
   StandingThings standing;
   standing.rises.assign(scene.size(), 0);
-  for (const OnePlane& one : found) {
+  std::vector<Pile> piles;
+  for (OnePlane& one : found) {
     for (const std::uint32_t i : one.rises) standing.rises[i] = 1;
     standing.things.insert(standing.things.end(), one.things.begin(), one.things.end());
-    standing.parts.insert(standing.parts.end(), one.parts.begin(), one.parts.end());
+    std::move(one.piles.begin(), one.piles.end(), std::back_inserter(piles));
   }
+  standing.parts = partsOf(piles, stick_width, threads);
   if (standing.things.size() > most_things) standing.things.resize(most_things);
   if (standing.parts.size() > most_parts) standing.parts.resize(most_parts);
   return standing;

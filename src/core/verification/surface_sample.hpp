@@ -17,8 +17,8 @@ using RigidRows = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
 
 /// Some points of a stored surface and their normals side by side, padded with points that face nowhere.
 struct SurfaceSample {
-  /// Takes every `stride`-th point of a view's surface. @return their centroid
-  Eigen::Vector3f take(const TrainingView& view, std::size_t stride) {
+  /// Takes every `stride`-th point of a view's surface.
+  void take(const TrainingView& view, std::size_t stride) {
     for (auto* axis : {&x, &y, &z, &nx, &ny, &nz}) axis->clear();
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
     for (std::size_t i = 0; i < view.surface_points.size(); i += stride) {
@@ -26,13 +26,13 @@ struct SurfaceSample {
       sum += view.surface_points[i];
     }
     size = x.size();
-    const Eigen::Vector3f centroid = sum / float(std::max<std::size_t>(1, size));
+    centroid = sum / float(std::max<std::size_t>(1, size));
     for (std::size_t i = 0; i < PointGrid::simd_padding; ++i) add(centroid, Eigen::Vector3f::Zero());
-    return centroid;
   }
 
   std::vector<float> x, y, z, nx, ny, nz;
   std::size_t size = 0;
+  Eigen::Vector3f centroid = Eigen::Vector3f::Zero();  ///< [m]
 
 private:
   void add(const Eigen::Vector3f& p, const Eigen::Vector3f& n) {

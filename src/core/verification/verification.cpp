@@ -6,6 +6,7 @@
 
 #include "core/verification/color_shift.hpp"
 #include "core/verification/pile_candidates.hpp"
+#include "core/verification/candidate_choice.hpp"
 #include "core/verification/pose_candidates.hpp"
 #include "core/verification/projective_refinement.hpp"
 #include "core/verification/score.hpp"
@@ -129,6 +130,7 @@ std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector
       candidates.insert(candidates.end(), more.begin(), more.end());
     }
   }
+  candidates = mostPromisingCandidates(std::move(candidates), models_, scene, settings, threads);
   const PoseExaminer examiner(models_, scene, spaces, settings);
   const double half = settings.verification.half_evidence;
 

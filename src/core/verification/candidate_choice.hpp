@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include <sks_detector/settings.hpp>
+
+#include "core/verification/pose_candidates.hpp"
+#include "core/verification/pose_examiner.hpp"
+
+namespace sks {
+
+/// Of each object the half of the candidates that fits the scene best after some rounds of ICP with few points: by
+/// then right ones stand out. Best first; their poses are as they were. The same for any number of threads.
+std::vector<PoseCandidate> mostPromisingCandidates(std::vector<PoseCandidate> candidates, const VerifiedModels& models,
+                                                   const SceneView& scene, const Settings& settings, int threads);
+
+}  // namespace sks
