@@ -18,7 +18,6 @@ constexpr std::size_t tile_blocks = 16;        // whose codes stay in the cache 
 constexpr std::size_t words_of_cluster = 128;  // about
 constexpr std::size_t least_visited = 24, most_visited = 80;  // clusters, about; an eighth of them in between
 constexpr std::size_t least_kept = 160, most_kept = 256;      // of the words of clusters; a 256th of all in between
-constexpr std::size_t carried = 4;                            // times as many, before the others are dropped
 constexpr std::size_t centers_sampled = 8;                    // every one of this many
 
 constexpr float largest_bin = 1e4f;  // descriptors have the length 1; sums over far larger bins would not be finite
@@ -44,17 +43,6 @@ void prefetch(const float* word, std::size_t size) {
   for (std::size_t i = 0; i < size; i += line) __builtin_prefetch(word + i);
 }
 
-void dropAbove(float highest, NearestWord::Search& search) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < search.slots.size(); ++i) {
-    if (search.bounds[i] > highest) continue;
-    search.slots[kept] = search.slots[i];
-    search.bounds[kept++] = search.bounds[i];
-  }
-  search.slots.resize(kept);
-  search.bounds.resize(kept);
-}
-
 /// Makes of a query's lower bounds estimates, which rank words better: what the axes leave over of two histograms
 /// points the same way in bounds, but is only somewhat alike in truth. Estimates may be above the distance.
 void estimate(WordCodes::CodedQuery& query) {
@@ -62,15 +50,6 @@ void estimate(WordCodes::CodedQuery& query) {
   const float square = query.vector.unit * float(left_over) * query.vector.unit * float(left_over);
   left_over = std::int16_t(0.7f * float(left_over));
   query.slack += 2 * 0.3f * square;
-}
-
-/// Keeps about the `kept` lowest bounds: no fewer, and ties.
-void keepLowest(std::size_t kept, NearestWord::Search& search, std::vector<float>& sorted) {
-  if (search.bounds.size() <= kept) return;
-  sorted = search.bounds;
-  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(kept - 1), sorted.end());
-  search.cut = std::min(search.cut, sorted[kept - 1]);
-  dropAbove(search.cut, search);
 }
 
 }  // namespace
@@ -119,6 +98,22 @@ void NearestWord::measureLikely(Search& search, std::uint32_t slot, float bound)
   remember(search, slot, chiSquaredFast(search.histogram, wordAt(slot), words_.cols()));
 }
 
+/// The likely word of each group, the nearest one first.
+void NearestWord::measureLikelyOfGroups(Search& search, Workspace& work) const {
+  const LowestBounds& found = search.found;
+  std::vector<std::pair<float, std::uint32_t>>& likely = work.likely;
+  likely.assign(groups_, {nothing, 0});
+  for (std::size_t i = 0; i < found.slots.size(); ++i) {
+    auto& of_group = likely[groupOf(found.slots[i])];
+    if (found.bounds[i] < of_group.first) of_group = {found.bounds[i], found.slots[i]};
+  }
+  std::sort(likely.begin(), likely.end());
+  for (const auto& [bound, slot] : likely) {
+    if (bound > merged_.highestWithin(limitOf(search, groupOf(slot)))) break;
+    remember(search, slot, chiSquaredFast(search.histogram, wordAt(slot), words_.cols()));
+  }
+}
+
 /// The largest distance of a word of the tile that may be wanted.
 float NearestWord::limitOfTile(const Search& search, std::size_t first_block) const {
   if (groups_ == 1) return limitOf(search, 0);
@@ -133,14 +128,15 @@ float NearestWord::limitOfTile(const Search& search, std::size_t first_block) co
 /// @param highest_within the highest bound of a word within a distance
 template <typename HighestWithin>
 void NearestWord::dropHopeless(Search& search, HighestWithin&& highest_within) const {
+  LowestBounds& found = search.found;
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < search.slots.size(); ++i) {
-    if (search.bounds[i] > highest_within(limitOf(search, groupOf(search.slots[i])))) continue;
-    search.slots[kept] = search.slots[i];
-    search.bounds[kept++] = search.bounds[i];
+  for (std::size_t i = 0; i < found.slots.size(); ++i) {
+    if (found.bounds[i] > highest_within(limitOf(search, groupOf(found.slots[i])))) continue;
+    found.slots[kept] = found.slots[i];
+    found.bounds[kept++] = found.bounds[i];
   }
-  search.slots.resize(kept);
-  search.bounds.resize(kept);
+  found.slots.resize(kept);
+  found.bounds.resize(kept);
 }
 
 /// Distances in place of bounds, two at a time; `nothing` for words that those before them rule out.
@@ -148,28 +144,28 @@ void NearestWord::dropHopeless(Search& search, HighestWithin&& highest_within) c
 template <typename HighestWithin>
 void NearestWord::measurePromising(Search& search, HighestWithin&& highest_within) const {
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-  const std::size_t bins = words_.cols(), count = search.slots.size();
+  const std::size_t bins = words_.cols(), count = search.found.slots.size();
   const auto keep = [&](std::size_t i, float distance) {
-    search.bounds[i] = distance;
-    remember(search, search.slots[i], distance);
+    search.found.bounds[i] = distance;
+    remember(search, search.found.slots[i], distance);
   };
   std::size_t waiting = none;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint32_t slot = search.slots[i];
-    if (i + 1 < count) prefetch(wordAt(search.slots[i + 1]), bins);
-    if (search.bounds[i] > highest_within(limitOf(search, groupOf(slot)))) {
-      search.bounds[i] = nothing;
+    const std::uint32_t slot = search.found.slots[i];
+    if (i + 1 < count) prefetch(wordAt(search.found.slots[i + 1]), bins);
+    if (search.found.bounds[i] > highest_within(limitOf(search, groupOf(slot)))) {
+      search.found.bounds[i] = nothing;
     } else if (waiting == none) {
       waiting = i;
     } else {
       float distances[2];
-      chiSquaredOfTwo(search.histogram, wordAt(search.slots[waiting]), wordAt(slot), bins, distances);
+      chiSquaredOfTwo(search.histogram, wordAt(search.found.slots[waiting]), wordAt(slot), bins, distances);
       keep(waiting, distances[0]);
       keep(i, distances[1]);
       waiting = none;
     }
   }
-  if (waiting != none) keep(waiting, chiSquaredFast(search.histogram, wordAt(search.slots[waiting]), bins));
+  if (waiting != none) keep(waiting, chiSquaredFast(search.histogram, wordAt(search.found.slots[waiting]), bins));
 }
 
 void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* const* searches, std::size_t count,
@@ -186,15 +182,10 @@ void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* con
     Search& search = *searches[q];
     const std::size_t likely = indexOfSmallest(bounds[q], words);
     if (bounds[q][likely] > limitOfTile(search, first_block) + search.query.slack) continue;
-    measureLikely(search, std::uint32_t(first_block * block_words + likely), bounds[q][likely]);
-    const float highest = std::min(search.cut, limitOfTile(search, first_block) + search.query.slack);
+    if (exact()) measureLikely(search, std::uint32_t(first_block * block_words + likely), bounds[q][likely]);
+    const float highest = std::min(search.found.highest(), limitOfTile(search, first_block) + search.query.slack);
     const std::size_t kept = selectUpTo(highest, bounds[q], words, work.selected.data());
-    for (std::size_t i = 0; i < kept; ++i) {
-      search.slots.push_back(std::uint32_t(first_block * block_words + work.selected[i]));
-      search.bounds.push_back(bounds[q][work.selected[i]]);
-    }
-    // In the end few are kept: what is far from them need not be carried along.
-    if (!exact() && search.bounds.size() > carried * mostKept()) keepLowest(2 * mostKept(), search, work.sorted);
+    search.found.add(std::uint32_t(first_block * block_words), bounds[q], work.selected.data(), kept);
   }
 }
 
@@ -204,20 +195,19 @@ std::size_t NearestWord::mostKept() const {
 }
 
 void NearestWord::finish(Search& search, Match* matches, Workspace& work) const {
+  search.found.finish();
   dropHopeless(search, [&](float distance) { return distance + search.query.slack; });
-  if (!exact()) keepLowest(mostKept(), search, work.sorted);
   merged_.merge(search.histogram, work.merged);
-  merged_.distances(work.merged, search.slots, search.bounds);
+  merged_.distances(work.merged, search.found.slots, search.found.bounds);
   const auto highestWithin = [&](float distance) { return merged_.highestWithin(distance); };
-  search.lowest_of_group.assign(groups_, nothing);
-  for (std::size_t i = 0; i < search.slots.size(); ++i) measureLikely(search, search.slots[i], search.bounds[i]);
+  measureLikelyOfGroups(search, work);
   dropHopeless(search, highestWithin);
   measurePromising(search, highestWithin);
   // Between near ties double precision decides.
   dropHopeless(search, [](float distance) { return distance; });
   for (std::size_t group = 0; group < groups_; ++group) matches[group] = {0, 0, nothing};
   work.nearest.assign(groups_, {std::numeric_limits<double>::infinity(), 0});
-  for (const std::uint32_t slot : search.slots) {
+  for (const std::uint32_t slot : search.found.slots) {
     const std::uint32_t word = clusters_.order()[slot];
     auto& nearest = work.nearest[groupOf(slot)];
     nearest = std::min(nearest, {chiSquared(search.histogram, words_.row(word), words_.cols()), word});
@@ -297,11 +287,9 @@ void NearestWord::start(Search& search, const float* histogram, float factor, fl
   codes_.encode(histogram, work.projection, search.query);
   if (!exact()) estimate(search.query);
   search.best = limit;
-  search.cut = nothing;
+  search.found.begin(exact() ? 0 : mostKept(), codes_.usualDistance());
   search.best_of_group.assign(groups_, limit);
   search.lowest_of_group.assign(groups_, nothing);
-  search.slots.clear();
-  search.bounds.clear();
 }
 
 void NearestWord::find(const DescriptorMatrix& queries, std::size_t first, std::size_t count, float factor,

@@ -7,6 +7,7 @@
 
 #include <sks_detector/stages/matching.hpp>
 
+#include "core/matching/lowest_bounds.hpp"
 #include "core/matching/merged_words.hpp"
 #include "core/matching/word_clusters.hpp"
 #include "core/matching/word_codes.hpp"
@@ -27,9 +28,7 @@ public:
     float best;                          // distance of any word so far
     std::vector<float> best_of_group;    // ... of a group
     std::vector<float> lowest_of_group;  // bound so far of a group
-    std::vector<std::uint32_t> slots;    // words that may be nearest
-    std::vector<float> bounds;           // of their distances
-    float cut;                           // above it no word is among those that are looked at closer
+    LowestBounds found;                  // words that may be nearest
   };
 
   /// Buffers of one thread.
@@ -42,6 +41,7 @@ public:
     std::vector<float> sorted;                              // bounds, in part
     std::vector<float> centers;                             // distances of several queries to them
     std::vector<std::uint64_t> visits;                      // cluster and search, to be made in this order
+    std::vector<std::pair<float, std::uint32_t>> likely;    // lowest bound and its slot, of each group
     std::vector<std::pair<double, std::uint32_t>> nearest;  // distance and word of each group
   };
 
@@ -67,6 +67,7 @@ private:
   const float* wordAt(std::uint32_t slot) const;
   void remember(Search& search, std::uint32_t slot, float distance) const;
   void measureLikely(Search& search, std::uint32_t slot, float bound) const;
+  void measureLikelyOfGroups(Search& search, Workspace& work) const;
   float limitOfTile(const Search& search, std::size_t first_block) const;
   template <typename HighestWithin>
   void dropHopeless(Search& search, HighestWithin&& highest_within) const;

@@ -25,6 +25,9 @@ public:
   /// Codes of all words; what is encoded as a query afterwards allows for their rounding.
   std::vector<CodedVector> encode(const DescriptorMatrix& words);
 
+  /// Of the size that squared distances of words have.
+  float usualDistance() const { return axes_.meanMass() + floor_; }
+
   /// @param projection a buffer
   void encode(const float* histogram, HellingerAxes::Projection& projection, CodedQuery& query) const;
 
