@@ -98,7 +98,7 @@ void NearestWord::measureLikely(Search& search, std::uint32_t slot, float bound)
   remember(search, slot, chiSquaredFast(search.histogram, wordAt(slot), words_.cols()));
 }
 
-/// The likely word of each group, the nearest one first.
+/// Measures the likely word of each group where it may be near enough, the nearest one first: `likely` of the workspace.
 void NearestWord::measureLikelyOfGroups(Search& search, Workspace& work) const {
   const LowestBounds& found = search.found;
   std::vector<std::pair<float, std::uint32_t>>& likely = work.likely;
@@ -108,10 +108,13 @@ void NearestWord::measureLikelyOfGroups(Search& search, Workspace& work) const {
     if (found.bounds[i] < of_group.first) of_group = {found.bounds[i], found.slots[i]};
   }
   std::sort(likely.begin(), likely.end());
-  for (const auto& [bound, slot] : likely) {
+  std::size_t measured = 0;
+  for (; measured < groups_; ++measured) {
+    const auto& [bound, slot] = likely[measured];
     if (bound > merged_.highestWithin(limitOf(search, groupOf(slot)))) break;
     remember(search, slot, chiSquaredFast(search.histogram, wordAt(slot), words_.cols()));
   }
+  likely.resize(measured);
 }
 
 /// The largest distance of a word of the tile that may be wanted.
@@ -180,9 +183,11 @@ void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* con
   codeDistances(queries, table_, first_block, blocks, bounds);
   for (std::size_t q = 0; q < count; ++q) {
     Search& search = *searches[q];
-    const std::size_t likely = indexOfSmallest(bounds[q], words);
-    if (bounds[q][likely] > limitOfTile(search, first_block) + search.query.slack) continue;
-    if (exact()) measureLikely(search, std::uint32_t(first_block * block_words + likely), bounds[q][likely]);
+    if (exact()) {
+      const std::size_t likely = indexOfSmallest(bounds[q], words);
+      if (bounds[q][likely] > limitOfTile(search, first_block) + search.query.slack) continue;
+      measureLikely(search, std::uint32_t(first_block * block_words + likely), bounds[q][likely]);
+    }
     const float highest = std::min(search.found.highest(), limitOfTile(search, first_block) + search.query.slack);
     const std::size_t kept = selectUpTo(highest, bounds[q], words, work.selected.data());
     search.found.add(std::uint32_t(first_block * block_words), bounds[q], work.selected.data(), kept);
@@ -201,10 +206,17 @@ void NearestWord::finish(Search& search, Match* matches, Workspace& work) const 
   merged_.distances(work.merged, search.found.slots, search.found.bounds);
   const auto highestWithin = [&](float distance) { return merged_.highestWithin(distance); };
   measureLikelyOfGroups(search, work);
-  dropHopeless(search, highestWithin);
-  measurePromising(search, highestWithin);
-  // Between near ties double precision decides.
-  dropHopeless(search, [](float distance) { return distance; });
+  if (exact()) {
+    dropHopeless(search, highestWithin);
+    measurePromising(search, highestWithin);
+    // Between near ties double precision decides.
+    dropHopeless(search, [](float distance) { return distance; });
+  } else {
+    search.found.slots.clear();  // of near ties the likely one is as good
+    for (const auto& [bound, slot] : work.likely) {
+      if (search.best_of_group[groupOf(slot)] <= search.factor * search.best) search.found.slots.push_back(slot);
+    }
+  }
   for (std::size_t group = 0; group < groups_; ++group) matches[group] = {0, 0, nothing};
   work.nearest.assign(groups_, {std::numeric_limits<double>::infinity(), 0});
   for (const std::uint32_t slot : search.found.slots) {
