@@ -16,6 +16,7 @@ constexpr double area_unit = 1e-4;      // [m^2] areas enter the evidence in cm^
 constexpr double prior_area = 0.25e-4;  // [m^2] keeps the fraction of a very small area low
 constexpr double color_gain = 1.8;      // of evidence: what right poses lose by colours that agree to about 0.8
 constexpr std::size_t first_points = 250, last_points = 1500;  // examined to choose between poses, and of the chosen
+constexpr double least_promising = 0.5;   // evidence of a turned pose before its fit, beside that of the pose itself
 constexpr double standing_density = 2;  // of votes: what it is worth that something stands alone there
 constexpr double well_sampled = 4;      // spacings of points within the radius of a normal
 
@@ -139,8 +140,14 @@ Hypothesis PoseExaminer::fitted(Hypothesis hypothesis) const {
 
 template <typename Fit, typename Agreement>
 Hypothesis PoseExaminer::bestOfTurned(Hypothesis best, Fit&& fit, Agreement&& agreement) const {
+  const auto glance = [&](Hypothesis h) {
+    PoseEvidence pose;
+    return evidenceAt(h, pose, first_points, CorrespondenceSearch::along_ray);
+  };
+  const double least = least_promising * glance(best);
   double most = agreement(best);
   for (Hypothesis turned : turnedAround(best)) {
+    if (glance(turned) < least) continue;  // another side, whatever a fit would gain
     turned = fit(std::move(turned));
     const double agrees = agreement(turned);
     if (agrees <= most) continue;
