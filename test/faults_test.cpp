@@ -146,7 +146,8 @@ TEST(Faults, KilledCaptureLosesNoView) {
   for (int run = 0; run < runs(); ++run) {
     CapturedViews views(folder.path("captured"));
     const pid_t child = repeatInChild([&] { views.add("mug", cloud); });
-    ASSERT_TRUE(killWithin(child, 0.02, random));
+    const double patience = before == 0 ? run + 1 : 1;  // a busy machine takes long to begin
+    ASSERT_TRUE(killWithin(child, 0.02 * patience, random));
     const DataSet after = CapturedViews(folder.path("captured")).read();
     EXPECT_GE(after.training.size(), before);
     before = after.training.size();
