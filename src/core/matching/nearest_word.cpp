@@ -98,7 +98,7 @@ void NearestWord::measureLikely(Search& search, std::uint32_t slot, float bound)
   remember(search, slot, chiSquaredFast(search.histogram, wordAt(slot), words_.cols()));
 }
 
-/// Measures the likely word of each group where it may be near enough, the nearest one first: `likely` of the workspace.
+/// Measures the likely word of each group where it may be near enough, the nearest one first.
 void NearestWord::measureLikelyOfGroups(Search& search, Workspace& work) const {
   const LowestBounds& found = search.found;
   std::vector<std::pair<float, std::uint32_t>>& likely = work.likely;
@@ -108,13 +108,10 @@ void NearestWord::measureLikelyOfGroups(Search& search, Workspace& work) const {
     if (found.bounds[i] < of_group.first) of_group = {found.bounds[i], found.slots[i]};
   }
   std::sort(likely.begin(), likely.end());
-  std::size_t measured = 0;
-  for (; measured < groups_; ++measured) {
-    const auto& [bound, slot] = likely[measured];
+  for (const auto& [bound, slot] : likely) {
     if (bound > merged_.highestWithin(limitOf(search, groupOf(slot)))) break;
     remember(search, slot, chiSquaredFast(search.histogram, wordAt(slot), words_.cols()));
   }
-  likely.resize(measured);
 }
 
 /// The largest distance of a word of the tile that may be wanted.
@@ -204,26 +201,26 @@ void NearestWord::finish(Search& search, Match* matches, Workspace& work) const 
   dropHopeless(search, [&](float distance) { return distance + search.query.slack; });
   merged_.merge(search.histogram, work.merged);
   merged_.distances(work.merged, search.found.slots, search.found.bounds);
-  const auto highestWithin = [&](float distance) { return merged_.highestWithin(distance); };
+  // What rounding of the merged bins may have lifted above a limit is not missed among few clusters.
+  const auto highestWithin = [&](float distance) { return exact() ? merged_.highestWithin(distance) : distance; };
   measureLikelyOfGroups(search, work);
-  if (exact()) {
-    dropHopeless(search, highestWithin);
-    measurePromising(search, highestWithin);
-    // Between near ties double precision decides.
-    dropHopeless(search, [](float distance) { return distance; });
-  } else {
-    search.found.slots.clear();  // of near ties the likely one is as good
-    for (const auto& [bound, slot] : work.likely) {
-      if (search.best_of_group[groupOf(slot)] <= search.factor * search.best) search.found.slots.push_back(slot);
-    }
-  }
-  for (std::size_t group = 0; group < groups_; ++group) matches[group] = {0, 0, nothing};
+  dropHopeless(search, highestWithin);
+  measurePromising(search, highestWithin);
+  dropHopeless(search, [](float distance) { return distance; });
   work.nearest.assign(groups_, {std::numeric_limits<double>::infinity(), 0});
-  for (const std::uint32_t slot : search.found.slots) {
-    const std::uint32_t word = clusters_.order()[slot];
+  const auto distanceOf = [&](std::uint32_t word) {
+    return chiSquared(search.histogram, words_.row(word), words_.cols());
+  };
+  for (std::size_t i = 0; i < search.found.slots.size(); ++i) {
+    const std::uint32_t slot = search.found.slots[i], word = clusters_.order()[slot];
+    // Between near ties double precision decides, where the search is exact.
+    const double distance = exact() ? distanceOf(word) : double(search.found.bounds[i]);
     auto& nearest = work.nearest[groupOf(slot)];
-    nearest = std::min(nearest, {chiSquared(search.histogram, words_.row(word), words_.cols()), word});
-    matches[groupOf(slot)] = {0, nearest.second, float(nearest.first)};
+    nearest = std::min(nearest, {distance, word});
+  }
+  for (std::size_t group = 0; group < groups_; ++group) {
+    const auto& [distance, word] = work.nearest[group];
+    matches[group] = {0, word, std::isinf(distance) || exact() ? float(distance) : float(distanceOf(word))};
   }
 }
 
