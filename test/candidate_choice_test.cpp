@@ -52,7 +52,7 @@ protected:
 
 TEST_F(CandidateChoice, TheNearlyRightPoseIsBestAndStaysAsItWas) {
   const std::vector<PoseCandidate> kept = chosen(candidates(119), 1);
-  EXPECT_EQ(kept.size(), std::size_t(0.67 * settings_.verification.candidates));
+  EXPECT_EQ(kept.size(), std::size_t(0.8 * settings_.verification.candidates));
   EXPECT_TRUE(kept.front().T_scene_model.isApprox(nearlyRight(), 1e-12));
   EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end(), [](const PoseCandidate& a, const PoseCandidate& b) {
     return a.pre_score > b.pre_score;
