@@ -26,7 +26,7 @@ target_include_directories(${PROJECT_NAME}_ros PUBLIC src)
 target_include_directories(${PROJECT_NAME}_ros SYSTEM PUBLIC
   ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
 target_link_libraries(${PROJECT_NAME}_ros PUBLIC sks_build_flags ${PROJECT_NAME}_core ${PROJECT_NAME}_simulation
-  ${catkin_LIBRARIES})
+  ${catkin_LIBRARIES} PRIVATE sks_drawing)
 sks_precompile(${PROJECT_NAME}_ros <ros/node_handle.h> <sensor_msgs/PointCloud2.h>)
 set(sks_ros_libraries ${PROJECT_NAME}_ros)
 

@@ -32,10 +32,9 @@ def draw_curve(axes, score, **style):
 
 def plot_precision_recall(result, path):
     figure, axes = plt.subplots(figsize=(8, 5.5))
-    for color, (name, score) in enumerate(sorted(result['per_object'].items())):
+    for name, score in sorted(result['per_object'].items()):
         label = f"{name} (AP {text(score['average_precision'])})"
-        draw_curve(axes, score, label=label, color=f'C{color % 10}', linewidth=1.2, alpha=0.85,
-                   linestyle='-' if color < 10 else '--')
+        draw_curve(axes, score, label=label, color=score['color'], linewidth=1.2)
     draw_curve(axes, result, label=f"all (AP {text(result['average_precision'])})", color='black', linewidth=2.5)
     if result['precision'] is not None and result['recall'] is not None:
         axes.plot(result['recall'], result['precision'], 'o', color='black', markersize=8, clip_on=False, zorder=5,

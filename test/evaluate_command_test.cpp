@@ -127,6 +127,7 @@ TEST_F(EvaluateCommand, FindsWhatWasTrainedAndCountsWhatWasNot) {
   EXPECT_LT(result["pose"]["rotation_error_deg"]["p90"], 1.0);
   EXPECT_LT(result["pose"]["t_diff"]["median"], 0.05);
   EXPECT_EQ(result["per_object"]["bumps"]["recall"], 1.0);
+  EXPECT_EQ(result["per_object"]["bumps"]["color"], "#f07800");
   EXPECT_EQ(result["per_object"]["ghost"]["ground_truth"], 1);
   EXPECT_EQ(result["per_object"]["ghost"]["f1"], 0.0);
   EXPECT_TRUE(result["per_object"]["ghost"]["precision"].is_null());

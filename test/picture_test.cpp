@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#ifdef SKS_EXECUTABLE  // not where the command line is left out of the build
-
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "bumps.hpp"
+#include "drawing/picture.hpp"
+#include "drawing/point_image.hpp"
 #include "error_of.hpp"
 #include "io/file.hpp"
 #include "io/image_file.hpp"
 #include "temporary_folder.hpp"
-#include "tools/point_image.hpp"
-#include "tools/render.hpp"
 
-namespace sks::tools {
+namespace sks {
 namespace {
 
 constexpr Rgb magenta{255, 0, 255};
@@ -195,15 +193,6 @@ TEST(Picture, TextIsReadable) {
   EXPECT_EQ(encodePng(question), encodePng(unknown));
 }
 
-TEST(Picture, PaletteColoursDiffer) {
-  for (std::size_t i = 0; i < 8; ++i) {
-    for (std::size_t k = 0; k < i; ++k) {
-      const Rgb a = paletteColor(i), b = paletteColor(k);
-      EXPECT_GT(std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b), 60) << i << " and " << k;
-    }
-  }
-}
-
 TEST(Picture, PathsAreCheckedBeforehand) {
   EXPECT_EQ(test::errorOf(ErrorCode::bad_usage, [] { checkPicturePath("scene.gif"); }),
             "cannot tell the kind of picture from 'scene.gif'; let it end in .png or .jpg");
@@ -211,6 +200,4 @@ TEST(Picture, PathsAreCheckedBeforehand) {
             "cannot write '/none/scene.PNG': the folder /none does not exist; create it first");
 }
 
-}  // namespace sks::tools
-
-#endif
+}  // namespace sks

@@ -11,7 +11,6 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include "ros/cloud_message.hpp"
-#include "ros/markers.hpp"
 
 namespace sks_detector {
 namespace {
@@ -68,7 +67,8 @@ void DetectionOutput::publish(const FrameResult& result, bool broadcast) {
   {
     const std::lock_guard<std::mutex> lock(shown_mutex_);
     shown_ = detections;
-    publishMarkers(shown_);
+    shown_style_ = {result.colors, result.T_target_sensor, ros::Duration(marker_lifetime)};
+    publishMarkers();
   }
   publishCloud(keypoints_, result.keypoints, result.T_target_cloud, detections.header);
   publishCloud(votes_, result.votes, result.T_target_cloud, detections.header);
@@ -81,8 +81,8 @@ void DetectionOutput::clearMarkers() {
   markers_.publish(clearingMarkers(shown_.header));
 }
 
-void DetectionOutput::publishMarkers(const DetectionArray& detections) {
-  if (markers_.getNumSubscribers() > 0) markers_.publish(detectionMarkers(detections, ros::Duration(marker_lifetime)));
+void DetectionOutput::publishMarkers() {
+  if (markers_.getNumSubscribers() > 0) markers_.publish(detectionMarkers(shown_, shown_style_));
 }
 
 void DetectionOutput::broadcastPoses(const DetectionArray& detections) {
@@ -109,7 +109,7 @@ void DetectionOutput::broadcastPoses(const DetectionArray& detections) {
 
 void DetectionOutput::keepMarkers() {
   const std::lock_guard<std::mutex> lock(shown_mutex_);
-  if (!shown_.detections.empty()) publishMarkers(shown_);
+  if (!shown_.detections.empty()) publishMarkers();
 }
 
 }  // namespace sks_detector

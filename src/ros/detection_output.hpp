@@ -12,6 +12,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include "ros/frame_detector.hpp"
+#include "ros/markers.hpp"
 
 namespace sks_detector {
 
@@ -37,7 +38,7 @@ public:
   void clearMarkers();
 
 private:
-  void publishMarkers(const DetectionArray& detections);
+  void publishMarkers();
   void broadcastPoses(const DetectionArray& detections);
   void keepMarkers();
 
@@ -49,7 +50,8 @@ private:
   ros::Timer keep_markers_;
 
   std::mutex shown_mutex_;
-  DetectionArray shown_;  // by the markers
+  DetectionArray shown_;     // by the markers
+  MarkerStyle shown_style_;
 };
 
 }  // namespace sks_detector

@@ -5,10 +5,10 @@
 
 #include <sks_detector/error.hpp>
 
+#include "drawing/palette.hpp"
 #include "ros/cloud_message.hpp"
 #include "ros/detection_message.hpp"
 #include "ros/frame_name.hpp"
-#include "ros/markers.hpp"
 
 namespace sks_detector {
 namespace {
@@ -25,10 +25,9 @@ sks::Cloud pointsCloud(std::vector<Eigen::Vector3f> points) {
   return cloud;
 }
 
-std::vector<sks::Rgb> voteColors(const sks::Inspection& inspection, const std::vector<std::string>& objects) {
-  std::vector<sks::Rgb> palette, colors;
-  for (const std::string& object : objects) palette.push_back(objectColor(object));
-  for (const std::uint32_t object : inspection.vote_objects) colors.push_back(palette.at(object));
+std::vector<sks::Rgb> voteColors(const sks::Inspection& inspection) {
+  std::vector<sks::Rgb> colors;
+  for (const std::uint32_t object : inspection.vote_objects) colors.push_back(sks::paletteColor(object));
   return colors;
 }
 
@@ -36,12 +35,14 @@ std::vector<sks::Rgb> voteColors(const sks::Inspection& inspection, const std::v
 
 sks::Cloud FrameDetector::read(const sensor_msgs::PointCloud2& message, const NodeSettings& settings) const {
   sks::Cloud cloud = receivedCloud(message, settings.max_points);
-  if (settings.sensor_frame.empty()) return cloud;
-  const Eigen::Isometry3d T_cloud_sensor =
-      transforms_.lookup(withoutSlash(message.header.frame_id), withoutSlash(settings.sensor_frame),
-                         message.header.stamp, settings.tf_timeout);
-  cloud.sensor_origin = T_cloud_sensor.translation().cast<float>();
+  cloud.sensor_origin = sensorPose(message.header, settings).translation().cast<float>();
   return cloud;
+}
+
+Eigen::Isometry3d FrameDetector::sensorPose(const std_msgs::Header& cloud, const NodeSettings& settings) const {
+  if (settings.sensor_frame.empty()) return Eigen::Isometry3d::Identity();
+  return transforms_.lookup(withoutSlash(cloud.frame_id), withoutSlash(settings.sensor_frame), cloud.stamp,
+                            settings.tf_timeout);
 }
 
 FrameResult FrameDetector::detect(const sensor_msgs::PointCloud2& message, const NodeSettings& settings,
@@ -51,7 +52,9 @@ FrameResult FrameDetector::detect(const sensor_msgs::PointCloud2& message, const
     throw sks::Error(sks::ErrorCode::bad_usage,
                      "there is no codebook: set ~codebook, call ~load_codebook, or train one by ~train");
   }
-  const sks::Cloud cloud = read(message, settings);
+  sks::Cloud cloud = receivedCloud(message, settings.max_points);
+  const Eigen::Isometry3d T_cloud_sensor = sensorPose(message.header, settings);
+  cloud.sensor_origin = T_cloud_sensor.translation().cast<float>();
   sks::Inspection inspection;
   const double threshold = detector->settings().detection.threshold;
   std::vector<sks::Detection> found = detector->detect(cloud, inspect ? &inspection : nullptr).above(threshold);
@@ -63,12 +66,14 @@ FrameResult FrameDetector::detect(const sensor_msgs::PointCloud2& message, const
   // looked up last: while detecting the transform had time to arrive
   result.T_target_cloud = transforms_.lookup(answer.header.frame_id, withoutSlash(message.header.frame_id),
                                              message.header.stamp, settings.tf_timeout);
+  result.T_target_sensor = result.T_target_cloud * T_cloud_sensor;
   result.keypoints = pointsCloud(std::move(inspection.keypoints));
   result.votes = pointsCloud(std::move(inspection.votes));
-  result.votes.colors = voteColors(inspection, detector->codebook().objects);
+  result.votes.colors = voteColors(inspection);
   for (sks::Detection& detection : found) {
     transform(result.T_target_cloud, detection);
     answer.detections.push_back(toMessage(detection));
+    result.colors.push_back(sks::objectColor(detector->codebook().objects, detection.object));
   }
   return result;
 }

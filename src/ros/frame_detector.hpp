@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include <sensor_msgs/PointCloud2.h>
 #include <sks_detector/DetectionArray.h>
 #include <std_msgs/Header.h>
@@ -19,7 +21,9 @@ struct FrameResult {
   DetectionArray detections;  ///< in ~target_frame
   sks::Cloud keypoints;       ///< in the cloud's frame; empty where they were not asked for, like the votes
   sks::Cloud votes;           ///< in the cloud's frame, in the colours of their objects
+  std::vector<sks::Rgb> colors;  ///< of each detection: that of its object in the codebook
   Eigen::Isometry3d T_target_cloud = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_target_sensor = Eigen::Isometry3d::Identity();  ///< the camera: x right, y down, z forward
 };
 
 /// From a cloud's message to detections, with the detector that is in the slot at the moment. Safe to use from several
@@ -40,6 +44,9 @@ public:
   static std_msgs::Header answerHeader(const std_msgs::Header& cloud, const NodeSettings& settings);
 
 private:
+  /// T_cloud_sensor. @throws sks::Error where the transform is missing
+  Eigen::Isometry3d sensorPose(const std_msgs::Header& cloud, const NodeSettings& settings) const;
+
   const DetectorSlot& slot_;
   Transforms& transforms_;
 };

@@ -2,7 +2,7 @@
 #include "ros/markers.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include <tf2_eigen/tf2_eigen.h>
 
@@ -12,6 +12,8 @@ namespace sks_detector {
 namespace {
 
 using visualization_msgs::Marker;
+
+constexpr double label_height = 0.04;  // of its distance to the camera
 
 std_msgs::ColorRGBA toMessage(const sks::Rgb& color) {
   std_msgs::ColorRGBA message;
@@ -30,26 +32,37 @@ geometry_msgs::Point toPoint(const Eigen::Vector3d& p) {
   return point;
 }
 
+Eigen::Vector3d toVector(const geometry_msgs::Point& p) {
+  return {p.x, p.y, p.z};
+}
+
 Eigen::Vector3d sizeOf(const Detection& detection) {
   return {detection.box_size.x, detection.box_size.y, detection.box_size.z};
 }
 
+/// Half the extent of a detection's box along a direction.
+double reachAlong(const Detection& detection, const Eigen::Vector3d& direction) {
+  Eigen::Quaterniond rotation;
+  tf2::fromMsg(detection.box_center.orientation, rotation);
+  return 0.5 * (rotation.inverse() * direction).cwiseAbs().dot(sizeOf(detection));
+}
+
 /// A marker with what all of them have in common, its pose the centre of the box.
-Marker newMarker(const DetectionArray& detections, std::size_t index, const char* part, const ros::Duration& lifetime) {
+Marker newMarker(const DetectionArray& detections, std::size_t index, const char* part, const MarkerStyle& style) {
   Marker marker;
   marker.header = detections.header;
   marker.ns = part;
   marker.id = int(index);
   marker.action = Marker::ADD;
   marker.pose = detections.detections[index].box_center;
-  marker.lifetime = lifetime;
+  marker.lifetime = style.lifetime;
+  marker.color = toMessage(style.colors[index]);
   return marker;
 }
 
 void addBox(Marker marker, const Detection& detection, visualization_msgs::MarkerArray& array) {
   marker.type = Marker::LINE_LIST;
   marker.scale.x = std::max(0.002, 0.015 * sizeOf(detection).maxCoeff());
-  marker.color = toMessage(objectColor(detection.object));
   const Eigen::Vector3d half = 0.5 * sizeOf(detection);
   for (int axis = 0; axis < 3; ++axis) {  // the four edges along each axis
     for (const double u : {-1.0, 1.0}) {
@@ -81,26 +94,21 @@ void addAxes(Marker marker, const Detection& detection, visualization_msgs::Mark
   array.markers.push_back(std::move(marker));
 }
 
-void addLabel(Marker marker, const Detection& detection, visualization_msgs::MarkerArray& array) {
+void addLabel(Marker marker, const Detection& detection, const Eigen::Isometry3d& T_target_sensor,
+              visualization_msgs::MarkerArray& array) {
   marker.type = Marker::TEXT_VIEW_FACING;
-  marker.scale.z = std::max(0.02, 0.2 * sizeOf(detection).maxCoeff());
-  marker.color = toMessage({255, 255, 255});
   marker.text = detection.object + sks::formatted(" %.2f", double(detection.score));
+  const Eigen::Vector3d center = toVector(marker.pose.position);
+  const Eigen::Vector3d to_camera = T_target_sensor.translation() - center, up = -T_target_sensor.linear().col(1);
+  marker.scale.z = label_height * to_camera.norm();
+  marker.pose.orientation = geometry_msgs::Quaternion();
+  marker.pose.orientation.w = 1;
+  marker.pose.position = toPoint(center + (reachAlong(detection, up) + marker.scale.z) * up +
+                                 reachAlong(detection, to_camera.normalized()) * to_camera.normalized());
   array.markers.push_back(std::move(marker));
 }
 
 }  // namespace
-
-sks::Rgb objectColor(const std::string& object) {
-  std::uint32_t hash = 2166136261u;  // FNV-1a: the same on every machine, unlike std::hash
-  for (const char c : object) hash = (hash ^ std::uint8_t(c)) * 16777619u;
-  const double hue = 6.0 * double(hash % 3600) / 3600.0;
-  const auto channel = [&](double shift) {
-    const double phase = std::fmod(hue + shift, 6.0);
-    return std::uint8_t(std::lround(255 * std::clamp(std::abs(phase - 3.0) - 1.0, 0.25, 1.0)));
-  };
-  return {channel(0), channel(4), channel(2)};
-}
 
 visualization_msgs::MarkerArray clearingMarkers(const std_msgs::Header& header) {
   visualization_msgs::MarkerArray array;
@@ -111,13 +119,13 @@ visualization_msgs::MarkerArray clearingMarkers(const std_msgs::Header& header) 
   return array;
 }
 
-visualization_msgs::MarkerArray detectionMarkers(const DetectionArray& detections, const ros::Duration& lifetime) {
+visualization_msgs::MarkerArray detectionMarkers(const DetectionArray& detections, const MarkerStyle& style) {
   visualization_msgs::MarkerArray array = clearingMarkers(detections.header);
   for (std::size_t i = 0; i < detections.detections.size(); ++i) {
     const Detection& detection = detections.detections[i];
-    addBox(newMarker(detections, i, "boxes", lifetime), detection, array);
-    addAxes(newMarker(detections, i, "axes", lifetime), detection, array);
-    addLabel(newMarker(detections, i, "labels", lifetime), detection, array);
+    addBox(newMarker(detections, i, "boxes", style), detection, array);
+    addAxes(newMarker(detections, i, "axes", style), detection, array);
+    addLabel(newMarker(detections, i, "labels", style), detection, style.T_target_sensor, array);
   }
   return array;
 }

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -10,11 +9,12 @@
 #include <sks_detector/error.hpp>
 
 #include "core/settings/value_text.hpp"
+#include "drawing/palette.hpp"
+#include "drawing/picture.hpp"
 #include "tools/codebook_summary.hpp"
 #include "tools/command.hpp"
 #include "tools/detection_json.hpp"
 #include "tools/progress_bar.hpp"
-#include "tools/render.hpp"
 #include "tools/table.hpp"
 
 namespace sks::tools {
@@ -55,8 +55,7 @@ void savePicture(const std::string& path, const Cloud& cloud, const std::vector<
                  const std::vector<std::string>& objects) {
   Picture picture(cloud);
   for (auto d = detections.rbegin(); d != detections.rend(); ++d) {  // the best on top
-    const auto object = std::find(objects.begin(), objects.end(), d->object);
-    picture.drawDetection(*d, paletteColor(std::size_t(object - objects.begin())));
+    picture.drawDetection(*d, objectColor(objects, d->object));
   }
   picture.save(path);
 }

@@ -56,7 +56,7 @@ void run(EvaluateOptions& options) {
       evaluate(registeredTruth(data_set, *codebook), detect, options.method.name(), settings, bar.callback());
   scoreAsBop(evaluation, data_set, objectModels(data_set), threadCount(settings), bar.callback());
   bar.clear();
-  nlohmann::json json = evaluationJson(evaluation);
+  nlohmann::json json = evaluationJson(evaluation, codebook->objects);
   options.method.addSettings(json["settings"]);
   options.json.write(json);
   if (!options.bop_results.empty()) writeFileAtomically(options.bop_results, bopResults(data_set, evaluation));

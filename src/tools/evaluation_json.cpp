@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tools/evaluation_json.hpp"
 
+#include "drawing/palette.hpp"
 #include "tools/detection_json.hpp"
 #include "tools/settings_json.hpp"
 
@@ -109,7 +110,7 @@ void addBop(const BopScores& scores, json& result) {
 }
 
 /// What stands in the results of any evaluation, whoever detected.
-json commonJson(const Evaluation& evaluation) {
+json commonJson(const Evaluation& evaluation, const std::vector<std::string>& objects) {
   json result = scoreJson(evaluation.total);
   result["dataset"] = evaluation.data_set;
   result["method"] = evaluation.method;
@@ -124,7 +125,10 @@ json commonJson(const Evaluation& evaluation) {
     result["threshold_sweep"].push_back(pointJson(point));
   }
   result["per_object"] = json::object();
-  for (const auto& [object, score] : evaluation.objects) result["per_object"][object] = scoreJson(score);
+  for (const auto& [object, score] : evaluation.objects) {
+    json& of_object = result["per_object"][object] = scoreJson(score);
+    of_object["color"] = hexText(objectColor(objects, object));
+  }
   if (evaluation.bop) addBop(*evaluation.bop, result);
   result["per_scene"] = json::array();
   for (const SceneResult& scene : evaluation.scenes) {
@@ -135,8 +139,8 @@ json commonJson(const Evaluation& evaluation) {
 
 }  // namespace
 
-json evaluationJson(const Evaluation& evaluation) {
-  json result = commonJson(evaluation);
+json evaluationJson(const Evaluation& evaluation, const std::vector<std::string>& objects) {
+  json result = commonJson(evaluation, objects);
   result["settings"] = settingsJson(evaluation.settings);
   result["settings"].erase("threads");  // changes nothing but the times
   result["peak_memory_mb"] = evaluation.peak_memory_mb;
@@ -148,7 +152,9 @@ json evaluationJson(const Evaluation& evaluation) {
 }
 
 json recordedJson(const Evaluation& evaluation) {
-  json result = commonJson(evaluation);
+  std::vector<std::string> objects;
+  for (const auto& [object, score] : evaluation.objects) objects.push_back(object);
+  json result = commonJson(evaluation, objects);
   for (std::size_t i = 0; i < evaluation.scenes.size(); ++i) {
     result["per_scene"][i]["time_ms"] = {{"total", 1000 * evaluation.scenes[i].times.total}};
   }

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "tools/render.hpp"
+#include "drawing/picture.hpp"
 
 namespace sks::tools {
 namespace {

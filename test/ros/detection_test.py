@@ -86,11 +86,25 @@ class DetectionTest(unittest.TestCase):
             name = labels[index].text.split()[0]
             np.testing.assert_allclose(support.position_of(box.pose), synthetic.position(name), atol=0.01)
             self.assertEqual(len(box.points), 24)
+            color = {"thing": (240, 120, 0), "round": (24, 168, 240)}[name]  # in the order of the codebook
+            for marker in (box, labels[index]):
+                np.testing.assert_allclose([marker.color.r, marker.color.g, marker.color.b], np.array(color) / 255)
+            self.expect_label_above(labels[index], box)
         markers.clear()
         self.answer(support.cloud_message(synthetic.scene(names=())))
         cleared = markers.wait_for(lambda m: len(m.markers) == 1).markers
         self.assertEqual(cleared[0].action, Marker.DELETEALL)
         markers.close()
+
+    def expect_label_above(self, label, box):
+        """As the camera sees it; nearer to it than the box, and of a size that can be read from there."""
+        center, place = support.position_of(box.pose), support.position_of(label.pose)
+        corners = np.column_stack([[[p.x, p.y, p.z] for p in box.points], np.ones(24)]) @ support.matrix_of(box.pose).T
+        corners = corners[:, :3]
+        self.assertLess(place[1] / place[2] + 0.4 * label.scale.z, (corners[:, 1] / corners[:, 2]).min() + 0.01)
+        self.assertAlmostEqual(place[0] / place[2], center[0] / center[2], delta=0.01)
+        self.assertLess(np.linalg.norm(place), np.linalg.norm(center))
+        self.assertAlmostEqual(label.scale.z / np.linalg.norm(center), 0.04, delta=0.005)
 
     def test_shows_keypoints_and_votes_to_who_asks(self):
         keypoints = support.Recorder("/detector/keypoints", PointCloud2)

@@ -64,6 +64,25 @@ class LaunchFilesTest(unittest.TestCase):
                 self.assertGreaterEqual(len(config.nodes), 2)
                 self.assertEqual({node.machine_name for node in config.nodes}, {"robot"})
 
+    def test_both_configurations_of_rviz_show_the_same_without_keypoints_at_first(self):
+        displays = []
+        for path in sorted(glob.glob(os.path.join(PACKAGE, "config", "*.rviz"))):
+            with open(path) as file:
+                displays.append({d["Name"]: d for d in yaml.safe_load(file)["Visualization Manager"]["Displays"]})
+            self.assertFalse(displays[-1]["Keypoints"]["Enabled"])
+            self.assertEqual(displays[-1]["Picture"]["Class"], "rviz/Image")
+            self.assertEqual(displays[-1]["TF"]["Class"], "rviz/TF")
+            self.assertEqual(displays[-1].pop("Grid")["Class"], "rviz/Grid")  # lies across the axis that points up
+        self.assertEqual(len(displays), 2)
+        self.assertEqual(*displays)
+
+    def test_rviz_opens_with_the_view_for_its_frame(self):
+        for frame, file in (("camera_rgb_optical_frame", "sks_detector.rviz"), ("base_link", "sks_detector_robot.rviz")):
+            config = roslaunch.config.ROSLaunchConfig()
+            roslaunch.xmlloader.XmlLoader(resolve_anon=True).load(
+                os.path.join(PACKAGE, "launch", "rviz.launch"), config, argv=["fixed_frame:=" + frame], verbose=False)
+            self.assertIn("/config/%s -f %s" % (file, frame), config.nodes[0].args)
+
     def test_openni2_launch_is_used_where_it_is_asked_for(self):
         folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, folder)

@@ -10,12 +10,16 @@ import unittest
 import numpy as np
 import rospy
 import rostest
+import tf2_ros
+from geometry_msgs.msg import TransformStamped
 from visualization_msgs.msg import MarkerArray
 
 import support
 import synthetic
 
 WIDTH, HEIGHT = 1280, 800
+
+
 
 
 @unittest.skipUnless(shutil.which("Xvfb") and shutil.which("import"), "needs Xvfb and ImageMagick")
@@ -26,13 +30,21 @@ class RvizTest(unittest.TestCase):
             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
         display = ":" + self.screen.stdout.readline().decode().strip()
         self.environment = dict(os.environ, DISPLAY=display, LIBGL_ALWAYS_SOFTWARE="1", QT_X11_NO_MITSHM="1")
-        self.rviz = subprocess.Popen(["roslaunch", "sks_detector", "rviz.launch", "points:=/points",
-                                      "fixed_frame:=camera"], env=self.environment)
+        self.rviz = None
+        self.markers = support.Recorder("/detector/markers", MarkerArray)
+        self.source = support.CloudSource("/points")
 
     def tearDown(self):
+        self.markers.close()
+        self.source.publisher.unregister()
         for process in (self.rviz, self.screen):
             process.send_signal(signal.SIGINT)
             process.wait(support.PATIENCE)
+
+    def start(self, fixed_frame):
+        self.rviz = subprocess.Popen(["roslaunch", "sks_detector", "rviz.launch", "points:=/points",
+                                      "fixed_frame:=" + fixed_frame], env=self.environment)
+        support.wait_for(lambda: self.source.publisher.get_num_connections() >= 2, "rviz", 120)
 
     def pixels_like(self, color, tolerance=12):
         """How many pixels of the screen have about this colour."""
@@ -41,24 +53,39 @@ class RvizTest(unittest.TestCase):
         pixels = np.frombuffer(shot, np.uint8).reshape(-1, 3).astype(int)
         return int((np.abs(pixels - np.round(255 * np.array(color))).max(1) <= tolerance).sum())
 
-    def test_shows_boxes_and_keypoints_and_clears_them(self):
-        markers = support.Recorder("/detector/markers", MarkerArray)
-        source = support.CloudSource("/points")
-        support.wait_for(lambda: source.publisher.get_num_connections() >= 2, "rviz", 120)
+    def shown(self, points):
+        self.source.send(support.cloud_message(points))
+        return self.markers.messages[-1].markers if self.markers.messages else []
 
-        def shown(points):
-            source.send(support.cloud_message(points))
-            return markers.messages[-1].markers if markers.messages else []
-
-        boxes = support.wait_for(lambda: [m for m in shown(synthetic.scene()) if m.ns == "boxes"], "boxes")
+    def expect_boxes(self):
+        """Their colours."""
+        boxes = support.wait_for(lambda: [m for m in self.shown(synthetic.scene()) if m.ns == "boxes"], "boxes")
         colors = [(box.color.r, box.color.g, box.color.b) for box in boxes]
         self.assertEqual(len(set(colors)), 2)
-        for color in colors + [(0, 160 / 255, 1)]:  # the last is that of the keypoints
-            support.wait_for(lambda: shown(synthetic.scene()) and self.pixels_like(color) > 100, "pixels %s" % (color,),
-                             120)
-        support.wait_for(lambda: shown(synthetic.scene(names=())) and max(map(self.pixels_like, colors)) < 50,
+        for color in colors:
+            support.wait_for(lambda: self.shown(synthetic.scene()) and self.pixels_like(color) > 100,
+                             "pixels %s" % (color,), 120)
+        return colors
+
+    def test_shows_boxes_and_clears_them(self):
+        self.start("camera")
+        colors = self.expect_boxes()
+        if os.environ.get("SKS_SCREENSHOT"):
+            subprocess.check_call(["import", "-silent", "-window", "root", os.environ["SKS_SCREENSHOT"]],
+                                  env=self.environment)
+        support.wait_for(lambda: self.shown(synthetic.scene(names=())) and max(map(self.pixels_like, colors)) < 50,
                          "the boxes to vanish", 120)
-        markers.close()
+
+    def test_looks_at_the_boxes_in_a_frame_whose_z_points_up(self):
+        camera = TransformStamped()  # 0.6 m above the floor, looking ahead
+        camera.header.frame_id, camera.child_frame_id = "base_link", "camera"
+        camera.transform.translation.z = 0.6
+        turn = camera.transform.rotation
+        turn.x, turn.y, turn.z, turn.w = -0.5, 0.5, -0.5, 0.5
+        broadcaster = tf2_ros.StaticTransformBroadcaster()
+        broadcaster.sendTransform(camera)
+        self.start("base_link")
+        self.expect_boxes()
 
 
 if __name__ == "__main__":

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/canvas.hpp"
+#include "drawing/canvas.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "tools/stroke_font.hpp"
+#include "drawing/stroke_font.hpp"
 
-namespace sks::tools {
+namespace sks {
 namespace {
 
 constexpr double text_scale = 2.2, text_thickness = 1.4;  // [pixels]
@@ -63,4 +63,4 @@ PictureSize textSize(const std::string& text) {
   return {int(std::ceil(text_scale * advances)), int(std::ceil(text_scale * stroke_capitals))};
 }
 
-}  // namespace sks::tools
+}  // namespace sks

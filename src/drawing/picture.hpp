@@ -9,11 +9,11 @@
 #include <sks_detector/cloud.hpp>
 #include <sks_detector/detection.hpp>
 
+#include "drawing/canvas.hpp"
+#include "drawing/view_camera.hpp"
 #include "io/image_file.hpp"
-#include "tools/canvas.hpp"
-#include "tools/view_camera.hpp"
 
-namespace sks::tools {
+namespace sks {
 
 /// A picture of a cloud as its sensor sees it, with what was found in it; needs no display.
 class Picture {
@@ -53,10 +53,7 @@ private:
   std::vector<Label> labels_;  // painted last
 };
 
-/// Colours that are easily told apart, one for each index.
-Rgb paletteColor(std::size_t index);
-
 /// Throws now what Picture::save() would throw later. @throws Error(bad_usage), Error(bad_file)
 void checkPicturePath(const std::string& path);
 
-}  // namespace sks::tools
+}  // namespace sks

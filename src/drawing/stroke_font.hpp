@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-namespace sks::tools {
+namespace sks {
 
 /// A line through these points; one point twice is a dot. x to the right, y downwards from the top of capital letters.
 using Stroke = std::vector<Eigen::Vector2d>;
@@ -17,4 +17,4 @@ constexpr double stroke_capitals = 6;  ///< height of capital letters
 constexpr double stroke_width = 4;     ///< of each character
 constexpr double stroke_advance = 6;   ///< from one character to the next
 
-}  // namespace sks::tools
+}  // namespace sks

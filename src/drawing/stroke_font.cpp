@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/stroke_font.hpp"
+#include "drawing/stroke_font.hpp"
 
 #include <array>
 
-namespace sks::tools {
+namespace sks {
 namespace {
 
 constexpr char first = ' ', last = '~';
@@ -64,4 +64,4 @@ const std::vector<Stroke>& glyph(char character) {
   return glyphs[std::size_t((known ? character : '?') - first)];
 }
 
-}  // namespace sks::tools
+}  // namespace sks

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/view_camera.hpp"
+#include "drawing/view_camera.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-namespace sks::tools {
+namespace sks {
 namespace {
 
 std::vector<Eigen::Vector3d> finitePoints(const Cloud& cloud) {
@@ -104,4 +104,4 @@ Eigen::Vector3d ViewCamera::ray(double column, double row) const {
   return {(column - center_.x()) / focal_, (row - center_.y()) / focal_, 1};
 }
 
-}  // namespace sks::tools
+}  // namespace sks

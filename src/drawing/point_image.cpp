@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/point_image.hpp"
+#include "drawing/point_image.hpp"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace sks::tools {
+namespace sks {
 namespace {
 
 constexpr float no_depth = std::numeric_limits<float>::infinity();
@@ -165,4 +165,4 @@ ColorImage renderPoints(const Cloud& cloud, const ViewCamera& camera, PictureSiz
   return image;
 }
 
-}  // namespace sks::tools
+}  // namespace sks

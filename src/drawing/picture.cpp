@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "tools/render.hpp"
+#include "drawing/picture.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,10 +9,10 @@
 #include <sks_detector/error.hpp>
 
 #include "core/settings/number_format.hpp"
+#include "drawing/point_image.hpp"
 #include "io/file.hpp"
-#include "tools/point_image.hpp"
 
-namespace sks::tools {
+namespace sks {
 namespace {
 
 constexpr int gap = 5;  // around a label's text [pixels]
@@ -121,20 +121,9 @@ void Picture::save(const std::string& path) const {
   writeFileAtomically(path, endingOf(path) == ".png" ? encodePng(image) : encodeJpeg(image));
 }
 
-Rgb paletteColor(std::size_t index) {
-  // Hues a golden section apart never meet again.
-  const double hue = std::fmod(0.09 + 0.618034 * double(index), 1.0);
-  constexpr double saturation = 0.745;
-  const auto channel = [&](double shift) {                                  // of HSV at full value
-    const double distance = std::abs(6 * std::fmod(hue + shift, 1.0) - 3);  // from the channel's opposite hue
-    return std::uint8_t(std::lround(255 * (1 - saturation * (1 - std::clamp(distance - 1, 0.0, 1.0)))));
-  };
-  return {channel(0), channel(2.0 / 3), channel(1.0 / 3)};
-}
-
 void checkPicturePath(const std::string& path) {
   endingOf(path);
   checkWritable(path);
 }
 
-}  // namespace sks::tools
+}  // namespace sks

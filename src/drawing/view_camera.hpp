@@ -5,9 +5,9 @@
 
 #include <sks_detector/cloud.hpp>
 
-#include "tools/canvas.hpp"
+#include "drawing/canvas.hpp"
 
-namespace sks::tools {
+namespace sks {
 
 /// A pinhole camera that looks at a cloud: x right, y down, z forward.
 class ViewCamera {
@@ -33,4 +33,4 @@ private:
 /// Nothing nearer to the camera than this is drawn [m].
 constexpr double near_plane = 0.01;
 
-}  // namespace sks::tools
+}  // namespace sks

@@ -7,7 +7,7 @@
 
 #include "io/image_file.hpp"
 
-namespace sks::tools {
+namespace sks {
 
 struct PictureSize {
   int width, height;
@@ -35,4 +35,4 @@ void drawText(ColorImage& image, const std::string& text, const Eigen::Vector2d&
 /// Width of the text and height of its capital letters [pixels].
 PictureSize textSize(const std::string& text);
 
-}  // namespace sks::tools
+}  // namespace sks
