@@ -67,6 +67,7 @@ Eigen::Isometry3d Transforms::lookup(const std::string& target, const std::strin
   auto retried = Clock::now();
   std::string reason;
   while (!stopped_) {
+    reason.clear();  // tf2 appends to it
     if (buffer_.canTransform(target, source, stamp, &reason)) {
       return tf2::transformToEigen(buffer_.lookupTransform(target, source, stamp));
     }

@@ -83,7 +83,12 @@ class FramesTest(unittest.TestCase):
             status = support.Recorder("/detector/status", Status)
             answer = self.answer(synthetic.scene())
             self.assertEqual((answer.header.frame_id, answer.detections), ("nowhere", []))
-            status.wait_for(lambda s: "no transform from 'camera' to 'nowhere'" in s.last_error)
+            error = status.wait_for(lambda s: "no transform from 'camera' to 'nowhere'" in s.last_error).last_error
+            self.assertEqual(error.count("does not exist"), 1, error)  # however often tf2 was asked while waiting
+            for _ in range(3):
+                self.answer(synthetic.scene())
+                rospy.sleep(0.6)
+            self.assertEqual(node.output().count("no transform from"), 1, "the same is said twice a minute")
             self.assertTrue(node.alive())
             status.close()
 
