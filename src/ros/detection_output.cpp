@@ -11,6 +11,7 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include "ros/cloud_message.hpp"
+#include "ros/detection_frame.hpp"
 
 namespace sks_detector {
 namespace {
@@ -61,7 +62,7 @@ bool DetectionOutput::inspected() const {
   return keypoints_.getNumSubscribers() > 0 || votes_.getNumSubscribers() > 0;
 }
 
-void DetectionOutput::publish(const FrameResult& result, bool broadcast) {
+void DetectionOutput::publish(const FrameResult& result, const NodeSettings& settings) {
   const DetectionArray& detections = result.detections;
   detections_.publish(detections);
   {
@@ -72,7 +73,7 @@ void DetectionOutput::publish(const FrameResult& result, bool broadcast) {
   }
   publishCloud(keypoints_, result.keypoints, result.T_target_cloud, detections.header);
   publishCloud(votes_, result.votes, result.T_target_cloud, detections.header);
-  if (broadcast) broadcastPoses(detections);
+  if (settings.publish_tf) broadcastPoses(detections, settings);
 }
 
 void DetectionOutput::clearMarkers() {
@@ -85,7 +86,14 @@ void DetectionOutput::publishMarkers() {
   if (markers_.getNumSubscribers() > 0) markers_.publish(detectionMarkers(shown_, shown_style_));
 }
 
-void DetectionOutput::broadcastPoses(const DetectionArray& detections) {
+void DetectionOutput::broadcastPoses(const DetectionArray& detections, const NodeSettings& settings) {
+  const std::string& parent = detections.header.frame_id;
+  if (parent.empty()) {
+    ROS_ERROR_THROTTLE(30,
+                       "detections are not broadcast on /tf: their cloud has no frame_id; set it in what publishes the "
+                       "cloud");
+    return;
+  }
   if (detections.header.stamp.toSec() > ros::Time::now().toSec() + furthest_ahead) {
     ROS_ERROR_THROTTLE(30,
                        "detections are not broadcast on /tf: their cloud is stamped more than an hour in the future");
@@ -94,10 +102,14 @@ void DetectionOutput::broadcastPoses(const DetectionArray& detections) {
   std::vector<geometry_msgs::TransformStamped> transforms;
   std::map<std::string, int> count;
   for (const Detection& detection : detections.detections) {
-    const int number = ++count[detection.object];
     geometry_msgs::TransformStamped transform;
     transform.header = detections.header;
-    transform.child_frame_id = detection.object + (number > 1 ? "_" + std::to_string(number) : "");
+    transform.child_frame_id = detectionFrame(settings, detection.object, ++count[detection.object]);
+    if (transform.child_frame_id == parent) {
+      ROS_ERROR_STREAM_THROTTLE(30, "a detection is not broadcast on /tf: its frame '"
+                                        << parent << "' is that of the cloud; set ~tf_prefix or ~tf_frame");
+      continue;
+    }
     transform.transform.translation.x = detection.pose.pose.position.x;
     transform.transform.translation.y = detection.pose.pose.position.y;
     transform.transform.translation.z = detection.pose.pose.position.z;

@@ -13,6 +13,7 @@
 
 #include "ros/frame_detector.hpp"
 #include "ros/markers.hpp"
+#include "ros/node_settings.hpp"
 
 namespace sks_detector {
 
@@ -32,14 +33,14 @@ public:
   /// Whether somebody listens to `~keypoints` or `~votes`.
   bool inspected() const;
 
-  /// @param broadcast also each detection's pose on /tf: `object`, `object_2` ...
-  void publish(const FrameResult& result, bool broadcast);
+  /// With ~publish_tf also each detection's pose on /tf, by the names of detectionFrame().
+  void publish(const FrameResult& result, const NodeSettings& settings);
   /// Takes the markers out of rviz.
   void clearMarkers();
 
 private:
   void publishMarkers();
-  void broadcastPoses(const DetectionArray& detections);
+  void broadcastPoses(const DetectionArray& detections, const NodeSettings& settings);
   void keepMarkers();
 
   ros::Publisher detections_;

@@ -10,6 +10,7 @@
 
 #include "core/settings/threads.hpp"
 #include "core/settings/value_text.hpp"
+#include "ros/detection_frame.hpp"
 #include "ros/master_access.hpp"
 #include "ros/with_queue.hpp"
 
@@ -124,7 +125,7 @@ void DetectorNode::process(const CloudInput::Frame& frame) {
   const bool usable = detect(*frame.cloud, settings, result);
   if (ros::Time::now() < start || !enabled_) return input_.countDropped();
   result.detections.processing_time = secondsSince(frame.received);
-  output_.publish(result, settings.publish_tf);
+  output_.publish(result, settings);
   if (usable) {
     statistics_.processed(secondsSince(frame.received), age + secondsSince(frame.received));
   } else {
@@ -223,6 +224,7 @@ Configuration DetectorNode::configuration() const {
 }
 
 Configuration DetectorNode::apply(const Configuration& wanted) {
+  checkFramePattern(wanted.node.tf_frame);
   slot_.setSettings(withThreads(wanted.detector));
   {
     const std::lock_guard<std::mutex> lock(settings_mutex_);

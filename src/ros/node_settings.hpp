@@ -22,6 +22,8 @@ struct NodeSettings {
   double service_timeout = 10.0;
   bool always_on = false;
   bool publish_tf = false;
+  std::string tf_prefix;
+  std::string tf_frame = "{object}";
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
@@ -52,6 +54,12 @@ struct NodeSettings {
       "longest time that a service waits for the next cloud before it fails");
     v(s.always_on, "always_on", "detect in every cloud, also while nobody has subscribed to the results");
     v(s.publish_tf, "publish_tf", "broadcast the pose of each detection as a transform (tf)");
+    v(s.tf_prefix, "tf_prefix",
+      "put before the frame of each detection, with a slash between; set it where several detectors broadcast, or the "
+      "frames of one object have two parents; empty: none");
+    v(s.tf_frame, "tf_frame",
+      "frame of each detection; {object} stands for its name, {number} for 1, 2 ... of one object in a cloud; without "
+      "{number} the second is called mug_2 and so on");
   }
 };
 

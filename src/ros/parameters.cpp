@@ -6,6 +6,7 @@
 #include <sks_detector/error.hpp>
 
 #include "core/settings/detector_table.hpp"
+#include "ros/detection_frame.hpp"
 #include "ros/master_access.hpp"
 #include "ros/parameter_tree.hpp"
 
@@ -22,6 +23,13 @@ ParameterReading readParameters(const XmlRpc::XmlRpcValue& tree, const std::stri
   TreeReading from_tree = overlayParameters(tree, name_space, overlay);
   reading.given = std::move(from_tree.given);
   reading.warnings = std::move(from_tree.warnings);
+  NodeSettings& node = reading.configuration.node;
+  try {
+    checkFramePattern(node.tf_frame);
+  } catch (const sks::Error& error) {
+    reading.errors.push_back("parameters in " + name_space + "/: " + error.what() + "; the default is used");
+    node.tf_frame = NodeSettings().tf_frame;
+  }
   std::vector<std::string> of_detector;
   for (const TreeReading::Refused& refused : from_tree.refused) {
     const bool of_node = nodeTable().find(refused.key) != nullptr;

@@ -112,6 +112,43 @@ class FramesTest(unittest.TestCase):
             np.testing.assert_allclose(found, expected, atol=0.05)
         transforms.close()
 
+    def transforms_of(self, nodes, frame="camera"):
+        """(parent, child) of what the nodes broadcast of one cloud with both objects."""
+        transforms = support.Recorder("/tf", tf2_msgs.msg.TFMessage)
+        self.detections.clear()
+        sent = support.cloud_message(synthetic.scene(), frame)
+        support.wait_for(lambda: self.source.publisher.get_num_connections() == nodes, "the nodes")
+
+        def broadcast():
+            sent.header.stamp = rospy.Time.now()
+            self.source.send(sent)
+            self.detections.wait_for_stamp(sent.header.stamp)
+            rospy.sleep(0.3)
+            found = [(t.header.frame_id, t.child_frame_id) for m in transforms.messages for t in m.transforms
+                     if t.header.stamp == sent.header.stamp]
+            return found if len(found) == 2 * nodes or not frame else []
+        found = broadcast() if not frame else support.wait_for(broadcast, "/tf")
+        transforms.close()
+        return sorted(found)
+
+    def test_detectors_with_prefixes_share_no_frame(self):
+        right = support.Node("right", {"codebook": support.CODEBOOK, "publish_tf": True, "tf_prefix": "right",
+                                       "tf_frame": "{object}_{number}"})
+        with self.node(publish_tf=True, tf_prefix="left"), right:
+            self.assertEqual(self.transforms_of(2), [("camera", name) for name in (
+                "left/round", "left/thing", "right/round_1", "right/thing_1")])
+
+    def test_an_empty_parent_is_not_broadcast(self):
+        with self.node(publish_tf=True) as node:
+            self.assertEqual(self.transforms_of(1, ""), [])
+            node.wait_for_output("not broadcast on /tf", "no frame_id")
+            self.assertEqual(len(self.detections.messages[-1].detections), 2)
+
+    def test_a_pattern_that_names_no_object_is_refused(self):
+        with self.node(publish_tf=True, tf_frame="{number}") as node:
+            node.wait_for_output("tf_frame = '{number}'", "must hold {object}")
+            self.assertEqual(self.transforms_of(1), [("camera", "round"), ("camera", "thing")])
+
 
 if __name__ == "__main__":
     rospy.init_node("frames_test")
