@@ -9,15 +9,19 @@
 #include <ros/console.h>
 #include <ros/init.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include "ros/cloud_message.hpp"
 #include "ros/detection_frame.hpp"
+#include "ros/master_access.hpp"
 
 namespace sks_detector {
 namespace {
 
 // Markers are published again while they hold, so that they go by themselves where the node went without a word.
 constexpr double marker_lifetime = 3.0, marker_period = 1.0;  // [s]
+
+constexpr std::uint32_t transform_queue = 100;  // as tf2_ros has it
 
 // Transforms of a stamp near the end of time make tf2, and so other nodes, throw.
 constexpr double furthest_ahead = 3600;  // [s]
@@ -36,7 +40,8 @@ void publishCloud(const ros::Publisher& publisher, const sks::Cloud& cloud, cons
 
 }  // namespace
 
-DetectionOutput::DetectionOutput(ros::NodeHandle& private_handle, std::function<void()> listeners_changed) {
+DetectionOutput::DetectionOutput(ros::NodeHandle& private_handle, std::function<void()> listeners_changed)
+    : handle_(private_handle) {
   const ros::SubscriberStatusCallback changed = [listeners_changed = std::move(listeners_changed)](
                                                     const ros::SingleSubscriberPublisher&) { listeners_changed(); };
   detections_ = private_handle.advertise<DetectionArray>("detections", 10, changed, changed);
@@ -76,6 +81,17 @@ void DetectionOutput::publish(const FrameResult& result, const NodeSettings& set
   if (settings.publish_tf) broadcastPoses(detections, settings);
 }
 
+void DetectionOutput::advertiseTransforms(bool wanted) {
+  const auto is_done = [&] {
+    const std::lock_guard<std::mutex> lock(transforms_mutex_);
+    return bool(transforms_) == wanted;
+  };
+  if (is_done() || !masterAnswers()) return;
+  const std::lock_guard<std::mutex> lock(transforms_mutex_);
+  if (wanted && !transforms_) transforms_ = handle_.advertise<tf2_msgs::TFMessage>("/tf", transform_queue);
+  if (!wanted) transforms_ = ros::Publisher();
+}
+
 void DetectionOutput::clearMarkers() {
   const std::lock_guard<std::mutex> lock(shown_mutex_);
   shown_.detections.clear();
@@ -99,7 +115,7 @@ void DetectionOutput::broadcastPoses(const DetectionArray& detections, const Nod
                        "detections are not broadcast on /tf: their cloud is stamped more than an hour in the future");
     return;
   }
-  std::vector<geometry_msgs::TransformStamped> transforms;
+  tf2_msgs::TFMessage message;
   std::map<std::string, int> count;
   for (const Detection& detection : detections.detections) {
     geometry_msgs::TransformStamped transform;
@@ -114,9 +130,10 @@ void DetectionOutput::broadcastPoses(const DetectionArray& detections, const Nod
     transform.transform.translation.y = detection.pose.pose.position.y;
     transform.transform.translation.z = detection.pose.pose.position.z;
     transform.transform.rotation = detection.pose.pose.orientation;
-    transforms.push_back(transform);
+    message.transforms.push_back(transform);
   }
-  if (!transforms.empty()) broadcaster_.sendTransform(transforms);
+  const std::lock_guard<std::mutex> lock(transforms_mutex_);
+  if (transforms_ && !message.transforms.empty()) transforms_.publish(message);
 }
 
 void DetectionOutput::keepMarkers() {

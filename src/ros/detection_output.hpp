@@ -8,7 +8,6 @@
 #include <ros/publisher.h>
 #include <ros/timer.h>
 #include <sks_detector/DetectionArray.h>
-#include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include "ros/frame_detector.hpp"
@@ -33,6 +32,8 @@ public:
   /// Whether somebody listens to `~keypoints` or `~votes`.
   bool inspected() const;
 
+  /// Advertises /tf or no longer does; while the master is away nothing changes, so that it is to be tried again.
+  void advertiseTransforms(bool wanted);
   /// With ~publish_tf also each detection's pose on /tf, by the names of detectionFrame().
   void publish(const FrameResult& result, const NodeSettings& settings);
   /// Takes the markers out of rviz.
@@ -47,8 +48,11 @@ private:
   ros::Publisher markers_;
   ros::Publisher keypoints_;
   ros::Publisher votes_;
-  tf2_ros::TransformBroadcaster broadcaster_;
   ros::Timer keep_markers_;
+
+  ros::NodeHandle handle_;
+  std::mutex transforms_mutex_;
+  ros::Publisher transforms_;  // to /tf
 
   std::mutex shown_mutex_;
   DetectionArray shown_;     // by the markers

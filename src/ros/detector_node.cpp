@@ -19,6 +19,12 @@ namespace {
 
 constexpr double watch_period = 0.5;  // [s]
 
+// Kinds of errors.
+constexpr const char* cloud_error = "cloud";
+constexpr const char* frame_error = "frame";
+constexpr const char* parameter_error = "parameters";
+constexpr const char* watch_error = "watch";
+
 /// A node leaves one core to the rest of the robot, unless it is told how many threads to use.
 sks::Settings withThreads(sks::Settings settings) {
   const std::string capped = sks::tooManyThreads(settings);
@@ -48,14 +54,19 @@ DetectorNode::DetectorNode(const ros::NodeHandle& private_handle, const Paramete
       diagnostics_(control_handle_, board_, input_, statistics_, [this] { return nodeSettings().silence_warning; }),
       control_spinner_(1, &control_queue_) {
   for (const std::string& warning : parameters.warnings) ROS_WARN_STREAM(warning);
-  for (const std::string& error : parameters.errors) refuse(error);
+  for (const std::string& error : parameters.errors) refuse(parameter_error, error);
   loadCodebook(parameters);
   reconfigure_ = std::make_unique<Reconfigure>(
       control_handle_, configuration(), [this](const Configuration& wanted) { return apply(wanted); },
-      [this](const std::string& reason) { refuse(reason); });
-  board_.setCodebookListener([this] { reconfigure_->update(configuration()); });
+      [this](const std::string& reason) { refuse(parameter_error, reason); });
+  board_.setCodebookListener([this] {
+    reconfigure_->update(configuration());
+    errors_.clear(cloud_error);  // that there was none, for example
+    board_.setUsable(true);
+  });
   services_ = std::make_unique<Services>(control_handle_, slot_, board_, nodeSettings(), nodeAccess());
   listenToTransforms();
+  advertiseTransforms();
   timer_ = control_handle_.createSteadyTimer(ros::WallDuration(watch_period),
                                              [this](const ros::SteadyTimerEvent&) { watch(); });
   updateWanted();
@@ -83,7 +94,7 @@ void DetectorNode::loadCodebook(const ParameterReading& parameters) {
   try {
     slot_.setCodebook(sks::readCodebook(file), file);
   } catch (const std::exception& error) {
-    refuse(control_handle_.resolveName("codebook") + ": " + error.what());
+    refuse(codebook_error, control_handle_.resolveName("codebook") + ": " + error.what());
     return;
   }
   board_.codebookChanged();
@@ -103,7 +114,8 @@ void DetectorNode::work() {
       process(*frame);
     } catch (const std::exception& error) {
       statistics_.unusable();
-      errors_.error("frame", "cloud of " + input_.topic() + ": " + error.what());
+      board_.setUsable(false);
+      errors_.error(frame_error, "cloud of " + input_.topic() + ": " + error.what());
     }
   }
 }
@@ -126,7 +138,10 @@ void DetectorNode::process(const CloudInput::Frame& frame) {
   if (ros::Time::now() < start || !enabled_) return input_.countDropped();
   result.detections.processing_time = secondsSince(frame.received);
   output_.publish(result, settings);
+  board_.setUsable(usable);
   if (usable) {
+    errors_.clear(cloud_error);
+    errors_.clear(frame_error);
     statistics_.processed(secondsSince(frame.received), age + secondsSince(frame.received));
   } else {
     statistics_.unusable();
@@ -138,7 +153,7 @@ bool DetectorNode::detect(const sensor_msgs::PointCloud2& cloud, const NodeSetti
     result = frame_detector_.detect(cloud, settings, output_.inspected());
     return true;
   } catch (const std::exception& error) {
-    errors_.error("cloud", "cloud of " + input_.topic() + ": " + error.what());
+    errors_.error(cloud_error, "cloud of " + input_.topic() + ": " + error.what());
   }
   result.detections.header = FrameDetector::answerHeader(cloud.header, settings);
   result.detections.codebook = slot_.codebookName();
@@ -180,8 +195,9 @@ void DetectorNode::watch() {
     watchMaster();
     watchSilence();
     diagnostics_.update();
+    errors_.clear(watch_error);
   } catch (const std::exception& error) {
-    errors_.error("watch", error.what());
+    errors_.error(watch_error, error.what());
   }
 }
 
@@ -196,6 +212,7 @@ void DetectorNode::watchTime() {
 void DetectorNode::watchMaster() {
   input_.refresh();
   listenToTransforms();
+  advertiseTransforms();
   if (input_.lacksMaster()) {
     errors_.warning("master", masterIsAway() + ": " + input_.topic() + " is subscribed to when it is back");
   }
@@ -212,6 +229,10 @@ void DetectorNode::watchSilence() {
 void DetectorNode::listenToTransforms() {
   const NodeSettings settings = nodeSettings();
   if (!settings.target_frame.empty() || !settings.sensor_frame.empty()) transforms_.listen();
+}
+
+void DetectorNode::advertiseTransforms() {
+  output_.advertiseTransforms(nodeSettings().publish_tf);
 }
 
 NodeSettings DetectorNode::nodeSettings() const {
@@ -231,13 +252,15 @@ Configuration DetectorNode::apply(const Configuration& wanted) {
     settings_ = wanted.node;
   }
   listenToTransforms();
+  advertiseTransforms();
   updateWanted();
+  errors_.clear(parameter_error);
   return configuration();
 }
 
-void DetectorNode::refuse(const std::string& reason) {
+void DetectorNode::refuse(const std::string& kind, const std::string& reason) {
   ROS_ERROR_STREAM(reason);
-  board_.setError(reason);
+  board_.setError(kind, reason);
 }
 
 }  // namespace sks_detector

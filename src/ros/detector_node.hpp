@@ -58,13 +58,14 @@ private:
   void watchMaster();
   void watchSilence();
   void listenToTransforms();
+  void advertiseTransforms();
 
   NodeSettings nodeSettings() const;
   Configuration configuration() const;
   /// Reconfigure::Apply.
   Configuration apply(const Configuration& wanted);
-  /// Logs why parameters or codebook are not used, and leaves it in the status.
-  void refuse(const std::string& reason);
+  /// Logs why parameters or codebook are not used, and leaves it in the status as an error of this kind.
+  void refuse(const std::string& kind, const std::string& reason);
 
   ros::CallbackQueue control_queue_;
   ros::NodeHandle control_handle_;

@@ -36,6 +36,8 @@ const char* describe(std::uint8_t state) {
       return "ready: nobody listens, not subscribed";
     case sks_detector::Status::DETECTING:
       return "detecting";
+    case sks_detector::Status::FAILING:
+      return "the last cloud cannot be used";
     case sks_detector::Status::DISABLED:
       return "disabled by ~enable";
     default:
@@ -70,8 +72,9 @@ void Diagnostics::reset() {
 
 void Diagnostics::reportState(Status& status) {
   const sks_detector::Status state = board_.current();
-  status.summary(state.state == sks_detector::Status::NO_CODEBOOK ? DiagnosticStatus::ERROR : DiagnosticStatus::OK,
-                 describe(state.state));
+  const bool fails =
+      state.state == sks_detector::Status::NO_CODEBOOK || state.state == sks_detector::Status::FAILING;
+  status.summary(fails ? DiagnosticStatus::ERROR : DiagnosticStatus::OK, describe(state.state));
   if (!state.progress.empty()) {
     status.add("training", state.progress);
     status.addf("training progress [%]", "%.0f", 100.0 * double(state.progress_fraction));
@@ -110,7 +113,9 @@ void Diagnostics::reportInput(Status& status) {
 void Diagnostics::reportDetection(Status& status) {
   const FrameStatistics::Summary summary = statistics_.summary();
   if (summary.unusable > unusable_) {
-    status.summary(DiagnosticStatus::ERROR, "clouds cannot be used: " + board_.current().last_error);
+    const std::string reason = board_.current().last_error;  // gone where a good cloud came since
+    status.summary(DiagnosticStatus::ERROR,
+                   reason.empty() ? "some clouds cannot be used: see the log" : "clouds cannot be used: " + reason);
   } else if (summary.frames == 0) {
     status.summary(DiagnosticStatus::OK, "no cloud yet");
   } else {

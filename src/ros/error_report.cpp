@@ -13,9 +13,13 @@ constexpr std::chrono::seconds new_message_period(1), same_message_period(30);
 }  // namespace
 
 void ErrorReport::error(const std::string& kind, const std::string& message) {
-  if (!isDue(kind, message)) return;
-  ROS_ERROR_STREAM(sks::shownMessage(message));
-  board_.setError(message);
+  const bool is_due = isDue(kind, message);
+  if (is_due) ROS_ERROR_STREAM(sks::shownMessage(message));
+  if (is_due || !board_.hasError(kind)) board_.setError(kind, message);
+}
+
+void ErrorReport::clear(const std::string& kind) {
+  board_.clearError(kind);
 }
 
 void ErrorReport::warning(const std::string& kind, const std::string& message) {

@@ -19,6 +19,8 @@ public:
 
   /// Logs an error and leaves it in the status.
   void error(const std::string& kind, const std::string& message);
+  /// What failed works again: takes its error out of the status.
+  void clear(const std::string& kind);
   /// Only logs.
   void warning(const std::string& kind, const std::string& message);
 

@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t most_remarks = 3;
+constexpr const char* captured_error = "captured views";
 
 }  // namespace
 
@@ -93,10 +94,11 @@ void ServiceContext::updateStatus() {
       objects.erase(std::remove_if(objects.begin(), objects.end(), is_trained), objects.end());
     }
     board.setCaptured(objects);
+    board.clearError(captured_error);
   } catch (const std::exception& error) {
     const std::string message = sks::shownMessage(std::string("the captured views cannot be used: ") + error.what());
     ROS_ERROR_STREAM(message);
-    board.setError(message);
+    board.setError(captured_error, message);
   }
 }
 

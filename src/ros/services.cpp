@@ -72,11 +72,12 @@ private:
       response.success = failure.empty();
       if (failure.empty()) {
         if (!asked_often) ROS_INFO_STREAM(full_name << ": " << response.message);
+        context_.board.clearError(full_name);
       } else {
         response = Response();
         response.message = failure;
         ROS_WARN_STREAM(full_name << ": " << failure);
-        context_.board.setError(full_name + ": " + failure);
+        context_.board.setError(full_name, full_name + ": " + failure);
       }
       return true;  // false would hide the message from the caller
     };

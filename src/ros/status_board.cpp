@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/status_board.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <ros/time.h>
@@ -21,7 +22,15 @@ StatusBoard::StatusBoard(ros::NodeHandle& private_handle, const DetectorSlot& sl
 }
 
 void StatusBoard::setDetecting(bool detecting) {
-  change([&] { return std::exchange(detecting_, detecting) != detecting; });
+  change([&] {
+    if (std::exchange(detecting_, detecting) == detecting) return false;
+    usable_ = true;
+    return true;
+  });
+}
+
+void StatusBoard::setUsable(bool usable) {
+  change([&] { return std::exchange(usable_, usable) != usable; });
 }
 
 void StatusBoard::setEnabled(bool enabled) {
@@ -72,6 +81,7 @@ void StatusBoard::codebookChanged() {
     status_.codebook_file = slot_.codebookFile();
     status_.objects = detector ? detector->codebook().objects : std::vector<std::string>();
     status_.words = detector ? std::uint32_t(detector->codebook().words.size()) : 0;
+    if (detector && failures_.erase(codebook_error) > 0) showLatestError();
     return true;
   });
   std::function<void()> listener;
@@ -87,15 +97,38 @@ void StatusBoard::setCodebookListener(std::function<void()> listener) {
   codebook_listener_ = std::move(listener);
 }
 
-void StatusBoard::setError(const std::string& text) {
+void StatusBoard::setError(const std::string& kind, const std::string& text) {
   const std::string message = sks::shownMessage(text);
   change([&] {
-    const bool same = std::exchange(status_.last_error, message) == message;
-    status_.last_error_stamp = ros::Time::now();
+    const bool same = status_.last_error == message;
+    failures_[kind] = {message, ros::Time::now(), ++failure_count_};
+    showLatestError();
     if (same && Clock::now() - error_published_ < same_error_period) return false;
     error_published_ = Clock::now();
     return true;
   });
+}
+
+bool StatusBoard::hasError(const std::string& kind) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return failures_.count(kind) > 0;
+}
+
+void StatusBoard::clearError(const std::string& kind) {
+  change([&] {
+    if (failures_.erase(kind) == 0) return false;
+    showLatestError();
+    return true;
+  });
+}
+
+void StatusBoard::showLatestError() {
+  const auto latest = std::max_element(failures_.begin(), failures_.end(), [](const auto& a, const auto& b) {
+    return a.second.number < b.second.number;
+  });
+  const Failure shown = latest == failures_.end() ? Failure() : latest->second;
+  status_.last_error = shown.message;
+  status_.last_error_stamp = shown.stamp;
 }
 
 Status StatusBoard::current() const {
@@ -115,7 +148,8 @@ std::uint8_t StatusBoard::state() const {
   if (training_) return Status::TRAINING;
   if (!enabled_) return Status::DISABLED;
   if (status_.codebook.empty()) return Status::NO_CODEBOOK;
-  return detecting_ ? Status::DETECTING : Status::READY;
+  if (!detecting_) return Status::READY;
+  return usable_ ? Status::DETECTING : Status::FAILING;
 }
 
 }  // namespace sks_detector

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@
 
 namespace sks_detector {
 
+/// The kind of error of a codebook that cannot be loaded: it goes when another one is in use.
+constexpr const char* codebook_error = "codebook";
+
 /// `~status`, latched: published whenever something in it changes. Safe to use from several threads.
 class StatusBoard {
 public:
@@ -25,6 +29,8 @@ public:
 
   /// Whether clouds are processed at the moment: somebody listens, or ~always_on.
   void setDetecting(bool detecting);
+  /// Whether the last cloud could be used; starts anew when detecting does.
+  void setUsable(bool usable);
   void setEnabled(bool enabled);
 
   void trainingStarted();
@@ -38,7 +44,11 @@ public:
   /// Called by codebookChanged(), from its thread.
   void setCodebookListener(std::function<void()> listener);
   /// Remembers an error for people who look later; the caller logs and replies it.
-  void setError(const std::string& message);
+  /// @param kind what failed: a new error of a kind replaces the old one
+  void setError(const std::string& kind, const std::string& message);
+  bool hasError(const std::string& kind) const;
+  /// What failed works again: the status goes back to the latest error of another kind, if there is one.
+  void clearError(const std::string& kind);
 
   /// What the status is at the moment.
   Status current() const;
@@ -49,14 +59,24 @@ private:
   /// Makes a change and, if it returns that it is worth publishing, publishes.
   void change(const std::function<bool()>& change);
   std::uint8_t state() const;
+  void showLatestError();
+
+  struct Failure {
+    std::string message;
+    ros::Time stamp;
+    std::uint64_t number = 0;  // of setError(): stamps may jump back
+  };
 
   const DetectorSlot& slot_;
   mutable std::mutex mutex_;
   Status status_;
   bool detecting_ = false;
+  bool usable_ = true;
   bool enabled_ = true;
   bool training_ = false;
   Clock::time_point progress_published_;
+  std::map<std::string, Failure> failures_;  // by kind
+  std::uint64_t failure_count_ = 0;
   Clock::time_point error_published_;
   std::function<void()> codebook_listener_;
   ros::Publisher publisher_;

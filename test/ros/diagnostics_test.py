@@ -4,6 +4,7 @@
 import signal
 import unittest
 
+import dynamic_reconfigure.client
 import numpy as np
 import rospy
 import rostest
@@ -11,7 +12,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
 import support
 import synthetic
-from sks_detector.msg import DetectionArray
+from sks_detector.msg import DetectionArray, Status
 
 
 class DiagnosticsTest(unittest.TestCase):
@@ -113,6 +114,37 @@ class DiagnosticsTest(unittest.TestCase):
             self.detections.wait_for_stamp(self.source.send(support.cloud_message(synthetic.scene())))
             self.wait_for("Detection", lambda s, v: s.level == DiagnosticStatus.OK and "ms (median)" in s.message,
                           "the end of the error")
+
+    def test_state_and_last_error_follow_the_clouds(self):
+        status = support.Recorder("/detector/status", Status)
+        with support.Node(parameters={"codebook": support.CODEBOOK}):
+            for _ in range(2):  # the second time the log says nothing
+                self.detections.wait_for_stamp(self.source.send(support.cloud_message(np.full((4, 4, 3), np.nan))))
+                status.wait_for(lambda s: s.state == Status.FAILING and "NaN" in s.last_error, "the failure")
+                self.wait_for("State", lambda s, v: s.level == DiagnosticStatus.ERROR and "NaN" in v["last error"],
+                              "the failure")
+                status.clear()
+                self.detections.wait_for_stamp(self.source.send(support.cloud_message(synthetic.scene())))
+                status.wait_for(lambda s: s.state == Status.DETECTING and s.last_error == "", "the end of the failure")
+                status.clear()
+                self.diagnostics.clear()
+        status.close()
+
+    def test_an_error_goes_when_its_own_cause_is_gone(self):
+        status = support.Recorder("/detector/status", Status)
+        with support.Node(parameters={"codebook": support.CODEBOOK, "max_points": -1}):
+            status.wait_for(lambda s: "max_points" in s.last_error, "the wrong parameter")
+            self.detections.wait_for_stamp(self.source.send(support.cloud_message(np.full((4, 4, 3), np.nan))))
+            status.wait_for(lambda s: "NaN" in s.last_error, "the failure")
+            status.clear()
+            self.detections.wait_for_stamp(self.source.send(support.cloud_message(synthetic.scene())))
+            status.wait_for(lambda s: "max_points" in s.last_error, "what is still wrong")
+            status.clear()
+            client = dynamic_reconfigure.client.Client("/detector", timeout=support.PATIENCE)
+            client.update_configuration({"max_points": 1000000})
+            status.wait_for(lambda s: s.last_error == "", "no error")
+            client.close()
+        status.close()
 
     def test_tells_codebook_and_memory(self):
         with support.Node(parameters={"codebook": support.CODEBOOK}):

@@ -3,7 +3,9 @@
 """~target_frame, ~sensor_frame and ~publish_tf."""
 import unittest
 
+import dynamic_reconfigure.client
 import numpy as np
+import rosgraph
 import rospy
 import rostest
 import tf2_msgs.msg
@@ -130,6 +132,20 @@ class FramesTest(unittest.TestCase):
         found = broadcast() if not frame else support.wait_for(broadcast, "/tf")
         transforms.close()
         return sorted(found)
+
+    def test_tf_is_advertised_only_while_it_is_asked_for(self):
+        def advertised():
+            publishers = dict(rosgraph.Master("/frames_test").getSystemState()[0])
+            return "/detector" in publishers.get("/tf", [])
+        with self.node():
+            self.answer(synthetic.scene())
+            self.assertFalse(advertised())
+            client = dynamic_reconfigure.client.Client("/detector", timeout=support.PATIENCE)
+            client.update_configuration({"publish_tf": True})
+            support.wait_for(advertised, "/tf")
+            client.update_configuration({"publish_tf": False})
+            support.wait_for(lambda: not advertised(), "the end of /tf")
+            client.close()
 
     def test_detectors_with_prefixes_share_no_frame(self):
         right = support.Node("right", {"codebook": support.CODEBOOK, "publish_tf": True, "tf_prefix": "right",

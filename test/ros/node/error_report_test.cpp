@@ -39,5 +39,16 @@ TEST_F(ErrorReportTest, SaysOfEachKindWhatIsNewOnceASecond) {
   EXPECT_EQ(lastError(), "it is malformed");
 }
 
+TEST_F(ErrorReportTest, AnErrorThatIsGoneLeavesTheLatestOfTheOthers) {
+  report_.error("cloud", "it is empty");
+  report_.error("transform", "there is none");
+  report_.clear("transform");
+  EXPECT_EQ(lastError(), "it is empty");
+  report_.clear("cloud");
+  EXPECT_EQ(lastError(), "");
+  report_.error("cloud", "it is empty");
+  EXPECT_EQ(lastError(), "it is empty") << "though the log said it just now";
+}
+
 }  // namespace
 }  // namespace sks_detector
