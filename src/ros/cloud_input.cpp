@@ -10,6 +10,7 @@
 
 #include "core/settings/value_text.hpp"
 #include "ros/master_access.hpp"
+#include "ros/topic_advice.hpp"
 
 namespace sks_detector {
 namespace {
@@ -20,6 +21,8 @@ namespace {
 constexpr std::uint32_t subscription_queue = 4;
 
 constexpr std::chrono::milliseconds retry_period(500);  // while the master is away
+
+constexpr std::chrono::seconds description_period(2);  // the master is not asked more often
 
 }  // namespace
 
@@ -162,8 +165,14 @@ void CloudInput::updateSubscription() {
 }
 
 std::string CloudInput::describePublishers() const {
-  const std::uint32_t count = publishers();
-  return count == 1 ? "1 publisher" : std::to_string(count) + " publishers";
+  {
+    const std::lock_guard<std::mutex> lock(describing_);
+    if (!description_.empty() && Clock::now() - described_ < description_period) return description_;
+  }
+  const std::string description = describeInput(topic_, publishers(), private_handle_.getNamespace());
+  const std::lock_guard<std::mutex> lock(describing_);
+  described_ = Clock::now();
+  return description_ = description;
 }
 
 }  // namespace sks_detector

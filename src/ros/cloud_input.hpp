@@ -58,6 +58,8 @@ public:
 
   std::string topic() const { return topic_; }  ///< resolved
   std::uint32_t publishers() const;
+  /// describeInput() of its topic, at most two seconds old.
+  std::string describePublishers() const;
   bool subscribed() const;
   /// Whether clouds are wanted and cannot be subscribed to, as the master is away.
   bool lacksMaster() const { return lacks_master_; }
@@ -71,7 +73,6 @@ private:
   void receive(const Event& event);
   bool needed() const;
   void updateSubscription();
-  std::string describePublishers() const;
 
   ros::NodeHandle private_handle_;
   const std::string topic_;
@@ -79,6 +80,10 @@ private:
   mutable std::mutex subscribing_;  // never taken by receive(): unsubscribing waits for that to return
   ros::Subscriber subscriber_;
   std::atomic<bool> lacks_master_{false};
+
+  mutable std::mutex describing_;  // guards the next two
+  mutable std::string description_;
+  mutable Clock::time_point described_;
 
   mutable std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;

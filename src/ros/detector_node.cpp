@@ -221,9 +221,8 @@ void DetectorNode::watchMaster() {
 void DetectorNode::watchSilence() {
   const double limit = nodeSettings().silence_warning, silence = input_.silence();
   if (limit == 0 || silence <= limit) return;
-  const std::uint32_t publishers = input_.publishers();
-  errors_.warning("silence", "no cloud on " + input_.topic() + " for more than " + sks::toText(limit) + " s: it has " +
-                                 std::to_string(publishers) + (publishers == 1 ? " publisher" : " publishers"));
+  errors_.warning("silence", "no cloud on " + input_.topic() + " for more than " + sks::toText(limit) +
+                                 " s: " + input_.describePublishers());
 }
 
 void DetectorNode::listenToTransforms() {

@@ -7,6 +7,7 @@
 
 #include <sks_detector/Status.h>
 
+#include "core/settings/number_format.hpp"
 #include "ros/master_access.hpp"
 
 namespace sks_detector {
@@ -22,10 +23,6 @@ double residentMemory() {
   double pages = 0, resident = 0;
   statm >> pages >> resident;
   return resident * double(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
-}
-
-std::string counted(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 const char* describe(std::uint8_t state) {
@@ -86,14 +83,13 @@ void Diagnostics::reportInput(Status& status) {
   const CloudInput::Counts counts = input_.counts();
   const FrameStatistics::Summary summary = statistics_.summary();
   const double silence = input_.silence(), limit = silence_limit_();
-  const std::uint32_t publishers = input_.publishers();
   if (input_.lacksMaster()) {
     status.summary(DiagnosticStatus::WARN, "not subscribed: " + masterIsAway());
   } else if (!input_.subscribed()) {
     status.summary(DiagnosticStatus::OK, "not subscribed");
   } else if (limit > 0 && silence > limit) {
-    status.summaryf(DiagnosticStatus::WARN, "no cloud on %s for %.0f s (%s)", input_.topic().c_str(), silence,
-                    counted(publishers, "publisher").c_str());
+    status.summary(DiagnosticStatus::WARN, "no cloud on " + input_.topic() + sks::formatted(" for %.0f s: ", silence) +
+                                               input_.describePublishers());
   } else if (summary.too_old > too_old_) {
     status.summaryf(DiagnosticStatus::WARN, "clouds are dropped by ~max_input_age: they are %.2f s old", summary.age);
   } else {
@@ -101,7 +97,7 @@ void Diagnostics::reportInput(Status& status) {
   }
   too_old_ = summary.too_old;
   status.add("topic", input_.topic());
-  status.add("publishers", publishers);
+  status.add("publishers", input_.publishers());
   status.addf("rate [Hz]", "%.2f", inputRate());
   status.addf("age [s]", "%.3f", summary.age);
   status.add("received", counts.received);

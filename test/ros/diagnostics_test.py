@@ -9,6 +9,7 @@ import numpy as np
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from sensor_msgs.msg import Image
 
 import support
 import synthetic
@@ -145,6 +146,21 @@ class DiagnosticsTest(unittest.TestCase):
             status.wait_for(lambda s: s.last_error == "", "no error")
             client.close()
         status.close()
+
+    def test_a_topic_of_images_is_told_from_silence(self):
+        images = rospy.Publisher("/pictures", Image, queue_size=1)
+        with support.Node(parameters={"codebook": support.CODEBOOK, "silence_warning": 0.5},
+                          arguments=["~points:=/pictures"]) as node:
+            node.wait_for_output("no cloud on /pictures", "it is a topic of sensor_msgs/Image", "depth_images.launch")
+            self.assertEqual(self.wait_for("Input", lambda s, v: "sensor_msgs/Image" in s.message, "it")[0],
+                             DiagnosticStatus.WARN)
+        images.unregister()
+
+    def test_names_the_topics_of_clouds_where_nobody_publishes(self):
+        with support.Node(parameters={"codebook": support.CODEBOOK, "silence_warning": 0.5},
+                          arguments=["~points:=/nothing"]) as node:
+            line = node.wait_for_output("no cloud on /nothing", "it has no publisher", "'/points'")
+            self.assertNotIn("/detector/keypoints", line)
 
     def test_tells_codebook_and_memory(self):
         with support.Node(parameters={"codebook": support.CODEBOOK}):

@@ -10,10 +10,12 @@
 #include <ros/callback_queue.h>
 #include <ros/publisher.h>
 #include <ros/spinner.h>
+#include <sensor_msgs/Image.h>
 
 #include <sks_detector/error.hpp>
 
 #include "error_of.hpp"
+#include "ros/topic_advice.hpp"
 
 namespace sks_detector {
 namespace {
@@ -146,6 +148,22 @@ TEST_F(CloudInputTest, StopLetsAllGoForGood) {
   input_.setWanted(true);
   EXPECT_FALSE(input_.subscribed());
   EXPECT_FALSE(input_.take());
+}
+
+TEST_F(CloudInputTest, SaysThatATopicIsNotOneOfClouds) {
+  ros::Publisher images = handle_.advertise<sensor_msgs::Image>("images", 1);
+  const std::string description = describeInput(images.getTopic(), 0, "/other");
+  EXPECT_EQ(description,
+            "it is a topic of sensor_msgs/Image, not of sensor_msgs/PointCloud2; depth_images.launch makes clouds of "
+            "depth and colour images");
+}
+
+TEST_F(CloudInputTest, NamesTheTopicsOfCloudsWhereThereIsNoPublisher) {
+  EXPECT_EQ(describeInput("/nothing", 0, "/other"),
+            "it has no publisher; topics of clouds are '" + publisher_.getTopic() + "'");
+  EXPECT_EQ(describeInput("/nothing", 0, handle_.getNamespace()),
+            "it has no publisher; no topic of clouds has one");
+  EXPECT_EQ(describeInput(publisher_.getTopic(), 1, "/other"), "it has 1 publisher");
 }
 
 }  // namespace
