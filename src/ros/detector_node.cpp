@@ -11,6 +11,7 @@
 #include "core/settings/threads.hpp"
 #include "core/settings/value_text.hpp"
 #include "ros/detection_frame.hpp"
+#include "ros/folders.hpp"
 #include "ros/master_access.hpp"
 #include "ros/with_queue.hpp"
 
@@ -84,7 +85,7 @@ DetectorNode::~DetectorNode() {
 }
 
 void DetectorNode::loadCodebook(const ParameterReading& parameters) {
-  const std::string file = nodeSettings().codebook;
+  const std::string file = codebookFile(nodeSettings());
   if (file.empty()) {
     ROS_WARN_STREAM("there is no codebook, so nothing is detected: set "
                     << control_handle_.resolveName("codebook") << ", or call " << control_handle_.resolveName("train")

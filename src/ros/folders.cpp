@@ -23,17 +23,21 @@ fs::path rosHome() {
 }
 
 /// `~/` is taken to be the home folder: launch files have no shell.
-std::string absolute(const std::string& directory) {
-  const bool home = directory == "~" || directory.rfind("~/", 0) == 0;
-  return fs::absolute(home ? environment("HOME") + directory.substr(1) : directory).string();
+std::string absolute(const std::string& path) {
+  const bool home = path == "~" || path.rfind("~/", 0) == 0;
+  return fs::absolute(home ? environment("HOME") + path.substr(1) : path).string();
 }
 
 }  // namespace
 
+std::string codebookFile(const NodeSettings& settings) {
+  return settings.codebook.empty() ? "" : absolute(settings.codebook);
+}
+
 std::string codebookDirectory(const NodeSettings& settings) {
   if (!settings.codebook_directory.empty()) return absolute(settings.codebook_directory);
   if (settings.codebook.empty()) return (rosHome() / "sks_detector").string();
-  return fs::absolute(settings.codebook).parent_path().string();
+  return fs::path(codebookFile(settings)).parent_path().string();
 }
 
 std::string datasetDirectory(const NodeSettings& settings) {

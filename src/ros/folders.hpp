@@ -7,6 +7,9 @@
 
 namespace sks_detector {
 
+/// ~codebook, absolute, as are the folders: `~/` is taken to be the home folder; empty where none is set.
+std::string codebookFile(const NodeSettings& settings);
+
 /// ~codebook_directory, or what takes its place where it is empty; absolute.
 std::string codebookDirectory(const NodeSettings& settings);
 

@@ -152,7 +152,7 @@ def unusable_clouds():
         ("too long", changed(lambda m: setattr(m, "data", m.data + b"0")), "but holds 230401 bytes"),
         ("points without bytes", changed(lambda m: setattr(m, "point_step", 0)), "but holds"),
         ("field outside", changed(far_offset), "field 'y' lies outside"),
-        ("millimetres", changed(lambda m: None, 1000 * synthetic.scene()), "looks like millimetres"),
+        ("millimetres", changed(lambda m: None, 1000 * synthetic.scene()), "what publishes clouds to ROS must send metres"),
     ]
 
 

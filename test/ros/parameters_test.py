@@ -50,6 +50,14 @@ class ParametersTest(unittest.TestCase):
             self.assertEqual(error.state, Status.NO_CODEBOOK)
             status.close()
 
+    def test_takes_a_tilde_for_the_home_folder(self):
+        home = os.path.dirname(support.CODEBOOK)
+        environment = dict(os.environ, HOME=home, ROS_LOG_DIR=os.path.join(home, "log"))
+        status = support.Recorder("/detector/status", Status)
+        with support.Node(parameters={"codebook": "~/synthetic.sks"}, environment=environment):
+            status.wait_for(lambda s: s.codebook_file == support.CODEBOOK, "the codebook")
+        status.close()
+
     def test_loads_every_shipped_settings_file(self):
         files = glob.glob(os.path.join(rospkg.RosPack().get_path("sks_detector"), "config", "*.yaml"))
         self.assertGreaterEqual(len(files), 3)

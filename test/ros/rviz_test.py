@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""What rviz.launch shows of detector.launch, on a screen in memory drawn by software."""
+"""What rviz.launch shows of detector.launch, on a screen in memory drawn by software. SKS_SCREENSHOT=FILE.png keeps a
+picture of it."""
 import os
 import shutil
 import signal

@@ -171,14 +171,14 @@ def threads_of(process):
 class Node:
     """detector_node in a process of its own, with its output; ends it when the `with` block is left."""
 
-    def __init__(self, name="detector", parameters=None, arguments=()):
+    def __init__(self, name="detector", parameters=None, arguments=(), environment=None):
         self.name = name
         for key, value in (parameters or {}).items():
             rospy.set_param("/%s/%s" % (name, key), value)
         self._lines = []
         self._process = subprocess.Popen(
             ["rosrun", "sks_detector", "detector_node", "__name:=" + name, "~points:=/points", *arguments],
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, env=environment)
         self._reader = threading.Thread(target=self._read)
         self._reader.start()
 

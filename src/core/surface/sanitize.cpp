@@ -91,7 +91,8 @@ Cloud sanitize(const Cloud& cloud, const SanitizeSettings& settings, SanitizeRep
   const double median = medianDistance(cloud);
   if (median > std::max(implausible_distance, settings.max_range)) {
     refuse("the cloud looks like millimetres: the median distance from the sensor is " + formatted("%g", median) +
-           " m; scale it by 0.001 (units: mm in a data set file, --scale 0.001 on the command line)");
+           " m; scale it by 0.001 (units: mm in a data set file, --scale 0.001 on the command line; what publishes "
+           "clouds to ROS must send metres: look for a setting of its units)");
   }
 
   SanitizeReport counts;
