@@ -18,12 +18,17 @@ import yaml
 PACKAGE = rospkg.RosPack().get_path("sks_detector")
 FILES = sorted(glob.glob(os.path.join(PACKAGE, "launch", "*.launch")))
 
-# Takes the arguments of the real one that camera.launch gives, and shows them as parameters.
-OPENNI2_LAUNCH = """<launch>
-  <arg name="camera"/> <arg name="device_id"/> <arg name="depth_registration"/> <arg name="rgb_frame_id"/>
-  <arg name="respawn"/>
-  <param name="seen" value="$(arg camera) $(arg device_id) $(arg depth_registration) $(arg rgb_frame_id) $(arg respawn)"/>
-</launch>"""
+# The launch file and the arguments, of those that camera.launch gives, of each driver; they are shown as parameters.
+DRIVERS = {
+    "openni2_launch": ("openni2", ("camera", "device_id", "depth_registration", "rgb_frame_id", "respawn")),
+    "freenect_launch": ("freenect", ("camera", "device_id", "depth_registration", "rgb_frame_id", "respawn")),
+    "realsense2_camera": ("rs_camera", ("camera", "serial_no", "align_depth", "depth_width", "depth_fps", "color_height",
+                                        "enable_sync")),
+    "azure_kinect_ros_driver": ("driver", ("sensor_sn", "depth_mode", "color_resolution", "fps", "point_cloud",
+                                           "rgb_point_cloud", "point_cloud_in_depth_frame")),
+    "zed_wrapper": ("zed2", ("camera_name", "svo_file")),
+    "astra_camera": ("astra", ("camera_name", "serial_number", "depth_registration", "enable_point_cloud_xyzrgb")),
+}
 
 
 class LaunchFilesTest(unittest.TestCase):
@@ -83,27 +88,61 @@ class LaunchFilesTest(unittest.TestCase):
                 os.path.join(PACKAGE, "launch", "rviz.launch"), config, argv=["fixed_frame:=" + frame], verbose=False)
             self.assertIn("/config/%s -f %s" % (file, frame), config.nodes[0].args)
 
-    def test_openni2_launch_is_used_where_it_is_asked_for(self):
+    def environment_with(self, drivers):
+        """Variables with which these drivers are found."""
         folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, folder)
-        os.makedirs(os.path.join(folder, "openni2_launch", "launch"))
-        with open(os.path.join(folder, "openni2_launch", "package.xml"), "w") as file:
-            file.write("<package><name>openni2_launch</name></package>")
-        with open(os.path.join(folder, "openni2_launch", "launch", "openni2.launch"), "w") as file:
-            file.write(OPENNI2_LAUNCH)
-        environment = dict(os.environ, ROS_PACKAGE_PATH=folder + ":" + os.environ["ROS_PACKAGE_PATH"])
+        for driver in drivers:
+            launch, arguments = DRIVERS[driver]
+            os.makedirs(os.path.join(folder, driver, "launch"))
+            with open(os.path.join(folder, driver, "package.xml"), "w") as file:
+                file.write("<package><name>%s</name></package>" % driver)
+            with open(os.path.join(folder, driver, "launch", launch + ".launch"), "w") as file:
+                shown = " ".join("%s=$(arg %s)" % (name, name) for name in arguments)
+                file.write("<launch>%s<param name=\"seen\" value=\"%s\"/></launch>" % (
+                    "".join('<arg name="%s" default="none"/>' % name for name in arguments), shown))
+        return dict(os.environ, ROS_PACKAGE_PATH=folder + ":" + os.environ["ROS_PACKAGE_PATH"])
+
+    def test_each_driver_is_included_where_it_is_installed(self):
+        environment = self.environment_with(DRIVERS)
 
         def roslaunch_says(what, name, *arguments):
-            return subprocess.check_output(["roslaunch", what, "sks_detector", name, "driver:=openni2_launch", *arguments],
-                                           env=environment, universal_newlines=True)
-        for arguments, seen in (((), "camera #1 true camera_rgb_optical_frame true"),
-                                (("camera:=head", "device:=#2", "respawn:=false"),
-                                 "head #2 true camera_rgb_optical_frame false")):
+            return subprocess.check_output(["roslaunch", what, "sks_detector", name, *arguments], env=environment,
+                                           universal_newlines=True)
+        openni = "camera=head device_id=%s depth_registration=true rgb_frame_id=camera_rgb_optical_frame respawn=false"
+        for driver, parameter, seen, points, sensor_frame in (
+                ("openni2_launch", "/seen", openni % "#2", "/head/depth_registered/points", ""),
+                ("freenect_launch", "/seen", openni % "#2", "/head/depth_registered/points", ""),
+                ("realsense2_camera", "/seen", "camera=head serial_no=#2 align_depth=true depth_width=640 depth_fps=30 "
+                 "color_height=480 enable_sync=true", "/head/depth_registered/points", ""),
+                ("azure_kinect_ros_driver", "/head/seen", "sensor_sn=#2 depth_mode=NFOV_UNBINNED color_resolution=720P "
+                 "fps=30 point_cloud=true rgb_point_cloud=true point_cloud_in_depth_frame=true", "/head/points2", ""),
+                ("zed_wrapper", "/seen", "camera_name=head svo_file=#2", "/head/zed_node/point_cloud/cloud_registered",
+                 "head_left_camera_optical_frame"),
+                ("astra_camera", "/seen", "camera_name=head serial_number=#2 depth_registration=true "
+                 "enable_point_cloud_xyzrgb=true", "/head/depth_registered/points", "")):
+            arguments = ("driver:=" + driver, "camera:=head", "device:=#2", "respawn:=false")
+            with self.subTest(driver):
+                for name in ("camera.launch", "robot.launch"):
+                    parameters = yaml.safe_load(roslaunch_says("--dump-params", name, *arguments))
+                    self.assertEqual(parameters[parameter], seen)
+                self.assertEqual(parameters["/detector/sensor_frame"], sensor_frame)
+                nodes = ["/detector", "/sks_manager"]
+                converter = ["/head_points"] if driver == "realsense2_camera" else []
+                self.assertEqual(roslaunch_says("--nodes", "camera.launch", *arguments).split(), converter)
+                self.assertEqual(sorted(roslaunch_says("--nodes", "robot.launch", *arguments).split()), nodes[:1] +
+                                 converter + nodes[1:])
+                self.assertIn("~points:=" + points, roslaunch_says("--args=/detector", "robot.launch", *arguments))
+
+    def test_an_unknown_driver_and_one_that_is_not_installed_are_refused(self):
+        for driver, reason in (("realsense", "the driver 'realsense' is unknown; choose openni2, "),
+                               ("zed_wrapper", "Resource not found: zed_wrapper")):
             for name in ("camera.launch", "robot.launch"):
-                parameters = yaml.safe_load(roslaunch_says("--dump-params", name, *arguments))
-                self.assertEqual(parameters["/seen"], seen)
-        self.assertEqual(roslaunch_says("--nodes", "camera.launch").split(), [])
-        self.assertEqual(sorted(roslaunch_says("--nodes", "robot.launch").split()), ["/detector", "/sks_manager"])
+                with self.subTest(driver + " in " + name):
+                    result = subprocess.run(["roslaunch", "--nodes", "sks_detector", name, "driver:=" + driver],
+                                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True)
+                    self.assertNotEqual(result.returncode, 0)
+                    self.assertIn(reason, result.stdout)
 
 
 if __name__ == "__main__":
