@@ -17,7 +17,7 @@ endif()
 if(sks_ros)
   add_message_files(FILES Detection.msg DetectionArray.msg Status.msg)
   add_service_files(FILES CaptureView.srv Detect.srv Info.srv LoadCodebook.srv RemoveObject.srv SaveCodebook.srv
-    Train.srv)
+    Train.srv UndoCapture.srv)
   generate_messages(DEPENDENCIES geometry_msgs sensor_msgs std_msgs)
   set(sks_message_dependencies geometry_msgs message_runtime sensor_msgs std_msgs)
 endif()

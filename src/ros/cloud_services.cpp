@@ -85,7 +85,7 @@ void CloudServices::captureView(const CaptureView::Request& request, CaptureView
                      describeModel(request.object, response) + asRemarks(warnings);
 }
 
-void CloudServices::undoCapture(const RemoveObject::Request& request, RemoveObject::Response& response) {
+void CloudServices::undoCapture(const UndoCapture::Request& request, UndoCapture::Response& response) {
   const auto removed = context_.captured.removeLast(request.object);
   context_.updateStatus();
   response.views = 1;

@@ -3,7 +3,7 @@
 
 #include <sks_detector/CaptureView.h>
 #include <sks_detector/Detect.h>
-#include <sks_detector/RemoveObject.h>
+#include <sks_detector/UndoCapture.h>
 
 #include "ros/capture_models.hpp"
 #include "ros/service_context.hpp"
@@ -18,7 +18,7 @@ public:
   void detect(const Detect::Request& request, Detect::Response& response);
   void captureView(const CaptureView::Request& request, CaptureView::Response& response);
   /// Takes the last captured view of an object back.
-  void undoCapture(const RemoveObject::Request& request, RemoveObject::Response& response);
+  void undoCapture(const UndoCapture::Request& request, UndoCapture::Response& response);
 
 private:
   /// Fills in what the view adds to the model. @return the same in words; why not, where that cannot be told

@@ -61,17 +61,26 @@ void CodebookServices::removeObject(const RemoveObject::Request& request, Remove
   const sks::DataSet captured = context_.captured.read();
   std::vector<std::string> known = detector ? detector->codebook().objects : std::vector<std::string>();
   const bool is_trained = contains(known, request.object);
+  std::size_t views = 0;
   for (const auto* entries : {&captured.training, &captured.missing}) {
-    for (const sks::TrainingEntry& entry : *entries) known.push_back(entry.object);
+    for (const sks::TrainingEntry& entry : *entries) {
+      known.push_back(entry.object);
+      views += std::size_t(entry.object == request.object);
+    }
   }
   if (!contains(known, request.object)) {
     throw Error(ErrorCode::bad_usage, "there is no object '" + sks::shown(request.object) +
                                           "' in the codebook or among the captured views; " +
                                           sks::nearestNameHint(request.object, known));
   }
+  if (!is_trained && !request.delete_views) {
+    throw Error(ErrorCode::bad_usage, "'" + request.object + "' is not in the codebook, and its " +
+                                          counted(views, "captured view") +
+                                          (views == 1 ? " is" : " are") + " kept unless delete_views is true");
+  }
   // what may fail comes before what cannot be undone
   const auto rest = is_trained ? sks::withoutObject(detector->codebook(), request.object) : nullptr;
-  response.views = std::uint32_t(context_.captured.remove(request.object));
+  if (request.delete_views) response.views = std::uint32_t(context_.captured.remove(request.object));
   if (is_trained) {
     context_.slot.setCodebook(rest, "");
     response.words = std::uint32_t(detector->codebook().words.size() - (rest ? rest->words.size() : 0));
@@ -80,6 +89,10 @@ void CodebookServices::removeObject(const RemoveObject::Request& request, Remove
   response.message = "removed '" + request.object + "': " + counted(response.words, "codeword") + ", " +
                      counted(response.views, "captured view");
   if (is_trained) response.message += "; files of codebooks are left as they are";
+  if (views > response.views) {
+    response.message += "; " + counted(views, "captured view") + (views == 1 ? " is" : " are") +
+                        " kept for the next training: set delete_views to delete them";
+  }
 }
 
 void CodebookServices::info(const Info::Request&, Info::Response& response) {

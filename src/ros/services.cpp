@@ -43,7 +43,7 @@ public:
     advertise<Info>("info", &codebooks_, &CodebookServices::info);
     advertise<Detect>("detect", &clouds_, &CloudServices::detect);
     advertise<CaptureView>("capture_view", &clouds_, &CloudServices::captureView);
-    advertise<RemoveObject>("undo_capture", &clouds_, &CloudServices::undoCapture);
+    advertise<UndoCapture>("undo_capture", &clouds_, &CloudServices::undoCapture);
     advertise<std_srvs::SetBool>("enable", this, &Implementation::enable);
     spinner_.start();
   }

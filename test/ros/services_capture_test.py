@@ -18,7 +18,7 @@ class CaptureServicesTest(services_support.ServicesTest):
         folder = self.file("")
         captured = [name for name in os.listdir(folder) if "." not in name] if os.path.exists(folder) else []
         for name in set(captured + self.succeed("info").objects):
-            self.succeed("remove_object", name)
+            self.succeed("remove_object", name, True)
 
     def file(self, name):
         return os.path.join(self.node.datasets, "captured", name)
@@ -136,7 +136,14 @@ class CaptureServicesTest(services_support.ServicesTest):
         self.captured(points, "thing")
         self.captured(points, "other")
         self.succeed("train")
-        removed = self.succeed("remove_object", "thing")
+        removed = self.succeed("remove_object", object="thing")
+        self.assertEqual(removed.views, 0)
+        self.assertGreater(removed.words, 0)
+        self.assertIn("2 captured views are kept", removed.message)
+        self.assertEqual(self.succeed("info").objects, ["other"])
+        self.refuse("remove_object", "not in the codebook", "delete_views", object="thing")
+        self.assertEqual(self.succeed("train").objects, 2)
+        removed = self.succeed("remove_object", object="thing", delete_views=True)
         self.assertEqual(removed.views, 2)
         self.assertGreater(removed.words, 0)
         self.assertEqual(self.succeed("info").objects, ["other"])

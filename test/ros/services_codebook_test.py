@@ -75,7 +75,7 @@ class CodebookServicesTest(services_support.ServicesTest):
         self.assertEqual(self.succeed("info").codebook_file, saved.path)
         self.succeed("save_codebook", "new/folder/copy.sks", False)  # it is the same
 
-        self.succeed("remove_object", "round")
+        self.succeed("remove_object", object="round")
         self.refuse("save_codebook", "holds the codebook synthetic (", "set overwrite", path="new/folder/copy.sks")
         self.succeed("save_codebook", "new/folder/copy.sks", True)
         self.assertEqual(self.succeed("load_codebook", saved.path).objects, ["thing"])
@@ -92,7 +92,7 @@ class CodebookServicesTest(services_support.ServicesTest):
         for service in call.values():
             service.wait_for_service(support.PATIENCE)
         self.assertTrue(call["load_codebook"]("synthetic.sks").success)
-        self.assertTrue(call["remove_object"]("round").success)  # so that the two codebooks differ
+        self.assertTrue(call["remove_object"](object="round").success)  # so that the two codebooks differ
         for i in range(20):
             name, replies = "race%d.sks" % i, [None, None]
             savers = [lambda: replies.__setitem__(0, self.node.call("save_codebook", name, False)),
@@ -112,7 +112,7 @@ class CodebookServicesTest(services_support.ServicesTest):
     def test_removes_objects(self):
         before = self.succeed("info")
         self.refuse("remove_object", "no object 'thin'", "did you mean 'thing'", object="thin")
-        removed = self.succeed("remove_object", "thing")
+        removed = self.succeed("remove_object", object="thing")
         self.assertEqual(removed.words, before.words[0])
         after = self.succeed("info")
         self.assertEqual(after.objects, ["round"])
@@ -123,7 +123,7 @@ class CodebookServicesTest(services_support.ServicesTest):
         self.assertEqual({d.object for d in found.detections}, {"round"})
         self.assertEqual(found.codebook, after.codebook)
 
-        self.succeed("remove_object", "round")
+        self.succeed("remove_object", object="round")
         self.assertIn("there is no codebook", self.succeed("info").message)
         self.wait_for_status(lambda s: s.state == Status.NO_CODEBOOK, "no codebook in the status")
         self.refuse("save_codebook", "no codebook to save", path="none.sks")

@@ -20,7 +20,7 @@ from sks_detector.msg import Status
 
 TYPES = {
     "train": srv.Train, "cancel_training": std_srvs.srv.Trigger, "load_codebook": srv.LoadCodebook,
-    "save_codebook": srv.SaveCodebook, "capture_view": srv.CaptureView, "remove_object": srv.RemoveObject, "undo_capture": srv.RemoveObject,
+    "save_codebook": srv.SaveCodebook, "capture_view": srv.CaptureView, "remove_object": srv.RemoveObject, "undo_capture": srv.UndoCapture,
     "detect": srv.Detect, "info": srv.Info, "enable": std_srvs.srv.SetBool,
 }
 

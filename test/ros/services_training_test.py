@@ -132,7 +132,7 @@ class TrainingServicesTest(services_support.ServicesTest):
                 self.assertIn(name, trained.message)
                 support.wait_for(lambda: support.log_messages(log, name), "the warning about " + name)
             self.assertEqual(self.succeed("info").objects, ["kept"])
-            self.assertEqual(self.succeed("remove_object", object="gone").views, 1)
+            self.assertEqual(self.succeed("remove_object", object="gone", delete_views=True).views, 1)
             self.assertNotIn("gone/000.pcd", self.succeed("train", captured=True).message)
             os.remove(os.path.join(folder, "kept/000.pcd"))
             self.refuse("train", "no captured view can be used", "kept/000.pcd", captured=True)
