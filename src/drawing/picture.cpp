@@ -109,7 +109,7 @@ void Picture::drawDetection(const Detection& detection, Rgb color) {
   drawLabel(detection.T_scene_box, detection.box_size, detection.object + score, color);
 }
 
-void Picture::save(const std::string& path) const {
+ColorImage Picture::image() const {
   ColorImage image = image_;
   for (const Label& label : labels_) {
     const Rgb& color = label.color;
@@ -118,6 +118,11 @@ void Picture::save(const std::string& path) const {
     const Eigen::Vector2d baseline(label.plate.x + gap, label.plate.y + label.plate.height - 2 * gap);
     drawText(image, label.text, baseline, light ? Rgb{0, 0, 0} : Rgb{255, 255, 255});
   }
+  return image;
+}
+
+void Picture::save(const std::string& path) const {
+  const ColorImage image = this->image();
   writeFileAtomically(path, endingOf(path) == ".png" ? encodePng(image) : encodeJpeg(image));
 }
 

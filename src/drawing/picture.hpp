@@ -36,6 +36,9 @@ public:
   /// Box, the model's axes at the box's centre, and a label such as "mario 0.87".
   void drawDetection(const Detection& detection, Rgb color);
 
+  /// What was drawn so far.
+  ColorImage image() const;
+
   /// Writes a PNG or JPEG whole or not at all. @throws Error(bad_usage) for another ending, Error(bad_file)
   void save(const std::string& path) const;
 
