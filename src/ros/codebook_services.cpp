@@ -75,8 +75,8 @@ void CodebookServices::removeObject(const RemoveObject::Request& request, Remove
   }
   if (!is_trained && !request.delete_views) {
     throw Error(ErrorCode::bad_usage, "'" + request.object + "' is not in the codebook, and its " +
-                                          counted(views, "captured view") +
-                                          (views == 1 ? " is" : " are") + " kept unless delete_views is true");
+                                          counted(views, "captured view") + (views == 1 ? " is" : " are") +
+                                          " kept unless delete_views is true");
   }
   // what may fail comes before what cannot be undone
   const auto rest = is_trained ? sks::withoutObject(detector->codebook(), request.object) : nullptr;

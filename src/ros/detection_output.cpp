@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/detection_output.hpp"
 
+#include <cstring>
 #include <map>
 #include <utility>
 
@@ -8,7 +9,9 @@
 #include <pcl_ros/transforms.h>
 #include <ros/console.h>
 #include <ros/init.h>
+#include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/image_encodings.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include "ros/cloud_message.hpp"
@@ -38,16 +41,31 @@ void publishCloud(const ros::Publisher& publisher, const sks::Cloud& cloud, cons
   publisher.publish(message);
 }
 
+void publishPicture(const ros::Publisher& publisher, const sks::ColorImage& picture, const std_msgs::Header& header) {
+  if (picture.pixels.empty()) return;
+  sensor_msgs::Image message;
+  message.header = header;
+  message.width = std::uint32_t(picture.width);
+  message.height = std::uint32_t(picture.height);
+  message.encoding = sensor_msgs::image_encodings::RGB8;
+  message.step = std::uint32_t(message.width * sizeof(sks::Rgb));
+  static_assert(sizeof(sks::Rgb) == 3);
+  message.data.resize(std::size_t(message.step) * message.height);
+  std::memcpy(message.data.data(), picture.pixels.data(), message.data.size());
+  publisher.publish(message);
+}
+
 }  // namespace
 
 DetectionOutput::DetectionOutput(ros::NodeHandle& private_handle, std::function<void()> listeners_changed)
-    : handle_(private_handle) {
+    : poses_(private_handle, listeners_changed), handle_(private_handle) {
   const ros::SubscriberStatusCallback changed = [listeners_changed = std::move(listeners_changed)](
                                                     const ros::SingleSubscriberPublisher&) { listeners_changed(); };
   detections_ = private_handle.advertise<DetectionArray>("detections", 10, changed, changed);
   markers_ = private_handle.advertise<visualization_msgs::MarkerArray>("markers", 1, changed, changed);
   keypoints_ = private_handle.advertise<sensor_msgs::PointCloud2>("keypoints", 1, changed, changed);
   votes_ = private_handle.advertise<sensor_msgs::PointCloud2>("votes", 1, changed, changed);
+  picture_ = private_handle.advertise<sensor_msgs::Image>("image_overlay", 1, changed, changed);
   keep_markers_ =
       private_handle.createTimer(ros::Duration(marker_period), [this](const ros::TimerEvent&) { keepMarkers(); });
 }
@@ -60,16 +78,19 @@ DetectionOutput::~DetectionOutput() {
 }
 
 bool DetectionOutput::listened() const {
-  return inspected() || detections_.getNumSubscribers() > 0 || markers_.getNumSubscribers() > 0;
+  const FrameExtras extras = wantedExtras();
+  return extras.inspection || extras.picture || poses_.listened() || detections_.getNumSubscribers() > 0 ||
+         markers_.getNumSubscribers() > 0;
 }
 
-bool DetectionOutput::inspected() const {
-  return keypoints_.getNumSubscribers() > 0 || votes_.getNumSubscribers() > 0;
+FrameExtras DetectionOutput::wantedExtras() const {
+  return {keypoints_.getNumSubscribers() > 0 || votes_.getNumSubscribers() > 0, picture_.getNumSubscribers() > 0};
 }
 
 void DetectionOutput::publish(const FrameResult& result, const NodeSettings& settings) {
   const DetectionArray& detections = result.detections;
   detections_.publish(detections);
+  poses_.publish(detections);
   {
     const std::lock_guard<std::mutex> lock(shown_mutex_);
     shown_ = detections;
@@ -78,6 +99,7 @@ void DetectionOutput::publish(const FrameResult& result, const NodeSettings& set
   }
   publishCloud(keypoints_, result.keypoints, result.T_target_cloud, detections.header);
   publishCloud(votes_, result.votes, result.T_target_cloud, detections.header);
+  publishPicture(picture_, result.picture, result.picture_header);
   if (settings.publish_tf) broadcastPoses(detections, settings);
 }
 

@@ -3,6 +3,8 @@
 
 #include <functional>
 #include <mutex>
+#include <string>
+#include <vector>
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
@@ -13,10 +15,12 @@
 #include "ros/frame_detector.hpp"
 #include "ros/markers.hpp"
 #include "ros/node_settings.hpp"
+#include "ros/pose_output.hpp"
 
 namespace sks_detector {
 
-/// What the node publishes of each frame: `~detections`, `~markers`, `~keypoints`, `~votes` and /tf. Safe to use from
+/// What the node publishes of each frame: `~detections`, `~poses`, `~objects/<name>/pose`, `~markers`,
+/// `~image_overlay`, `~keypoints`, `~votes` and /tf. Safe to use from
 /// several threads.
 class DetectionOutput {
 public:
@@ -29,8 +33,11 @@ public:
 
   /// Whether somebody listens to anything.
   bool listened() const;
-  /// Whether somebody listens to `~keypoints` or `~votes`.
-  bool inspected() const;
+  /// What is listened to of the topics that cost time.
+  FrameExtras wantedExtras() const;
+
+  /// PoseOutput::setObjects()
+  void setObjects(const std::vector<std::string>& objects) { poses_.setObjects(objects); }
 
   /// Advertises /tf or no longer does; while the master is away nothing changes, so that it is to be tried again.
   void advertiseTransforms(bool wanted);
@@ -48,6 +55,8 @@ private:
   ros::Publisher markers_;
   ros::Publisher keypoints_;
   ros::Publisher votes_;
+  ros::Publisher picture_;
+  PoseOutput poses_;
   ros::Timer keep_markers_;
 
   ros::NodeHandle handle_;
@@ -55,7 +64,7 @@ private:
   ros::Publisher transforms_;  // to /tf
 
   std::mutex shown_mutex_;
-  DetectionArray shown_;     // by the markers
+  DetectionArray shown_;  // by the markers
   MarkerStyle shown_style_;
 };
 

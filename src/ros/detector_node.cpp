@@ -64,10 +64,12 @@ DetectorNode::DetectorNode(const ros::NodeHandle& private_handle, const Paramete
     reconfigure_->update(configuration());
     errors_.clear(cloud_error);  // that there was none, for example
     board_.setUsable(true);
+    advertiseObjects();
   });
   services_ = std::make_unique<Services>(control_handle_, slot_, board_, nodeSettings(), nodeAccess());
   listenToTransforms();
   advertiseTransforms();
+  advertiseObjects();
   timer_ = control_handle_.createSteadyTimer(ros::WallDuration(watch_period),
                                              [this](const ros::SteadyTimerEvent&) { watch(); });
   updateWanted();
@@ -151,7 +153,7 @@ void DetectorNode::process(const CloudInput::Frame& frame) {
 
 bool DetectorNode::detect(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings, FrameResult& result) {
   try {
-    result = frame_detector_.detect(cloud, settings, output_.inspected());
+    result = frame_detector_.detect(cloud, settings, output_.wantedExtras());
     return true;
   } catch (const std::exception& error) {
     errors_.error(cloud_error, "cloud of " + input_.topic() + ": " + error.what());
@@ -163,7 +165,7 @@ bool DetectorNode::detect(const sensor_msgs::PointCloud2& cloud, const NodeSetti
 
 DetectionArray DetectorNode::detect(const sensor_msgs::PointCloud2& cloud) {
   const auto start = CloudInput::Clock::now();
-  DetectionArray detections = frame_detector_.detect(cloud, nodeSettings(), false).detections;
+  DetectionArray detections = frame_detector_.detect(cloud, nodeSettings(), {}).detections;
   detections.processing_time = secondsSince(start);
   return detections;
 }
@@ -214,6 +216,7 @@ void DetectorNode::watchMaster() {
   input_.refresh();
   listenToTransforms();
   advertiseTransforms();
+  advertiseObjects();
   if (input_.lacksMaster()) {
     errors_.warning("master", masterIsAway() + ": " + input_.topic() + " is subscribed to when it is back");
   }
@@ -233,6 +236,11 @@ void DetectorNode::listenToTransforms() {
 
 void DetectorNode::advertiseTransforms() {
   output_.advertiseTransforms(nodeSettings().publish_tf);
+}
+
+void DetectorNode::advertiseObjects() {
+  const auto detector = slot_.detector();
+  output_.setObjects(detector ? detector->codebook().objects : std::vector<std::string>());
 }
 
 NodeSettings DetectorNode::nodeSettings() const {

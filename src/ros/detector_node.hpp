@@ -59,6 +59,7 @@ private:
   void watchSilence();
   void listenToTransforms();
   void advertiseTransforms();
+  void advertiseObjects();
 
   NodeSettings nodeSettings() const;
   Configuration configuration() const;

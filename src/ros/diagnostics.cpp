@@ -69,8 +69,7 @@ void Diagnostics::reset() {
 
 void Diagnostics::reportState(Status& status) {
   const sks_detector::Status state = board_.current();
-  const bool fails =
-      state.state == sks_detector::Status::NO_CODEBOOK || state.state == sks_detector::Status::FAILING;
+  const bool fails = state.state == sks_detector::Status::NO_CODEBOOK || state.state == sks_detector::Status::FAILING;
   status.summary(fails ? DiagnosticStatus::ERROR : DiagnosticStatus::OK, describe(state.state));
   if (!state.progress.empty()) {
     status.add("training", state.progress);

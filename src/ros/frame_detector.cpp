@@ -6,6 +6,7 @@
 #include <sks_detector/error.hpp>
 
 #include "drawing/palette.hpp"
+#include "drawing/picture.hpp"
 #include "ros/cloud_message.hpp"
 #include "ros/detection_message.hpp"
 #include "ros/frame_name.hpp"
@@ -31,6 +32,22 @@ std::vector<sks::Rgb> voteColors(const sks::Inspection& inspection) {
   return colors;
 }
 
+/// As `sks detect --image` draws it, in the size of most depth images.
+sks::ColorImage draw(sks::Cloud cloud, const Eigen::Isometry3d& T_cloud_sensor, std::vector<sks::Detection> detections,
+                     const std::vector<std::string>& objects) {
+  constexpr sks::PictureSize size{640, 480};
+  const Eigen::Isometry3d T_sensor_cloud = T_cloud_sensor.inverse();
+  const Eigen::Isometry3f T = T_sensor_cloud.cast<float>();
+  for (Eigen::Vector3f& point : cloud.points) point = T * point;
+  cloud.sensor_origin.setZero();
+  sks::Picture picture(cloud, size);
+  for (auto d = detections.rbegin(); d != detections.rend(); ++d) {  // the best on top
+    transform(T_sensor_cloud, *d);
+    picture.drawDetection(*d, sks::objectColor(objects, d->object));
+  }
+  return picture.image();
+}
+
 }  // namespace
 
 sks::Cloud FrameDetector::read(const sensor_msgs::PointCloud2& message, const NodeSettings& settings) const {
@@ -46,7 +63,7 @@ Eigen::Isometry3d FrameDetector::sensorPose(const std_msgs::Header& cloud, const
 }
 
 FrameResult FrameDetector::detect(const sensor_msgs::PointCloud2& message, const NodeSettings& settings,
-                                  bool inspect) const {
+                                  const FrameExtras& extras) const {
   const auto detector = slot_.detector();
   if (!detector) {
     throw sks::Error(sks::ErrorCode::bad_usage,
@@ -57,7 +74,8 @@ FrameResult FrameDetector::detect(const sensor_msgs::PointCloud2& message, const
   cloud.sensor_origin = T_cloud_sensor.translation().cast<float>();
   sks::Inspection inspection;
   const double threshold = detector->settings().detection.threshold;
-  std::vector<sks::Detection> found = detector->detect(cloud, inspect ? &inspection : nullptr).above(threshold);
+  std::vector<sks::Detection> found =
+      detector->detect(cloud, extras.inspection ? &inspection : nullptr).above(threshold);
 
   FrameResult result;
   DetectionArray& answer = result.detections;
@@ -70,6 +88,10 @@ FrameResult FrameDetector::detect(const sensor_msgs::PointCloud2& message, const
   result.keypoints = pointsCloud(std::move(inspection.keypoints));
   result.votes = pointsCloud(std::move(inspection.votes));
   result.votes.colors = voteColors(inspection);
+  result.picture_header = message.header;
+  result.picture_header.frame_id =
+      withoutSlash(settings.sensor_frame.empty() ? message.header.frame_id : settings.sensor_frame);
+  if (extras.picture) result.picture = draw(cloud, T_cloud_sensor, found, detector->codebook().objects);
   for (sks::Detection& detection : found) {
     transform(result.T_target_cloud, detection);
     answer.detections.push_back(toMessage(detection));

@@ -10,18 +10,27 @@
 
 #include <sks_detector/cloud.hpp>
 
+#include "io/image_file.hpp"
 #include "ros/detector_slot.hpp"
 #include "ros/node_settings.hpp"
 #include "ros/transforms.hpp"
 
 namespace sks_detector {
 
+/// What is wanted of a cloud beside its detections.
+struct FrameExtras {
+  bool inspection = false;  ///< keypoints and votes
+  bool picture = false;
+};
+
 /// What one cloud led to.
 struct FrameResult {
   DetectionArray detections;  ///< in ~target_frame
   sks::Cloud keypoints;       ///< in the cloud's frame; empty where they were not asked for, like the votes
   sks::Cloud votes;           ///< in the cloud's frame, in the colours of their objects
-  std::vector<sks::Rgb> colors;  ///< of each detection: that of its object in the codebook
+  sks::ColorImage picture;    ///< of the cloud with what was found, as its camera sees it; empty where not asked for
+  std_msgs::Header picture_header;  ///< of the camera's frame
+  std::vector<sks::Rgb> colors;     ///< of each detection: that of its object in the codebook
   Eigen::Isometry3d T_target_cloud = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_target_sensor = Eigen::Isometry3d::Identity();  ///< the camera: x right, y down, z forward
 };
@@ -38,7 +47,8 @@ public:
   sks::Cloud read(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings) const;
 
   /// @throws sks::Error without a codebook, for an unusable cloud, or where a transform is missing
-  FrameResult detect(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings, bool inspect) const;
+  FrameResult detect(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings,
+                     const FrameExtras& extras) const;
 
   /// The header of the answer to a cloud: its stamp, in ~target_frame or the cloud's own frame.
   static std_msgs::Header answerHeader(const std_msgs::Header& cloud, const NodeSettings& settings);

@@ -123,9 +123,8 @@ void StatusBoard::clearError(const std::string& kind) {
 }
 
 void StatusBoard::showLatestError() {
-  const auto latest = std::max_element(failures_.begin(), failures_.end(), [](const auto& a, const auto& b) {
-    return a.second.number < b.second.number;
-  });
+  const auto latest = std::max_element(failures_.begin(), failures_.end(),
+                                       [](const auto& a, const auto& b) { return a.second.number < b.second.number; });
   const Failure shown = latest == failures_.end() ? Failure() : latest->second;
   status_.last_error = shown.message;
   status_.last_error_stamp = shown.stamp;

@@ -6,7 +6,8 @@ import unittest
 import numpy as np
 import rospy
 import rostest
-from sensor_msgs.msg import PointCloud2
+from geometry_msgs.msg import PoseArray, PoseStamped
+from sensor_msgs.msg import Image, PointCloud2
 from visualization_msgs.msg import Marker, MarkerArray
 
 import support
@@ -105,6 +106,36 @@ class DetectionTest(unittest.TestCase):
         self.assertAlmostEqual(place[0] / place[2], center[0] / center[2], delta=0.01)
         self.assertLess(np.linalg.norm(place), np.linalg.norm(center))
         self.assertAlmostEqual(label.scale.z / np.linalg.norm(center), 0.04, delta=0.005)
+
+    def test_poses_come_in_standard_messages(self):
+        poses = support.Recorder("/detector/poses", PoseArray)
+        best = {name: support.Recorder("/detector/objects/%s/pose" % name, PoseStamped) for name in ("thing", "round")}
+        support.wait_for(lambda: poses.connections() and all(b.connections() for b in best.values()), "connections")
+        answer = self.answer(support.cloud_message(synthetic.scene()))
+        message = poses.wait_for_stamp(answer.header.stamp)
+        self.assertEqual(message.header.frame_id, "camera")
+        self.assertEqual(message.poses, [d.pose.pose for d in answer.detections])
+        for detection in answer.detections:
+            message = best[detection.object].wait_for_stamp(answer.header.stamp)
+            self.assertEqual((message.header.frame_id, message.pose), ("camera", detection.pose.pose))
+        answer = self.answer(support.cloud_message(synthetic.scene(names=("round",))))
+        self.assertEqual(len(poses.wait_for_stamp(answer.header.stamp).poses), 1)
+        best["round"].wait_for_stamp(answer.header.stamp)
+        self.assertEqual(len(best["thing"].messages), 1)
+        for recorder in (poses, *best.values()):
+            recorder.close()
+
+    def test_draws_a_picture_for_who_asks(self):
+        pictures = support.Recorder("/detector/image_overlay", Image)
+        support.wait_for(pictures.connections, "a connection")
+        stamp = self.answer(support.cloud_message(synthetic.scene())).header.stamp
+        picture = pictures.wait_for_stamp(stamp)
+        self.assertEqual((picture.header.frame_id, picture.encoding, picture.width, picture.height),
+                         ("camera", "rgb8", 640, 480))
+        pixels = np.frombuffer(picture.data, np.uint8).reshape(480, 640, 3)
+        for color in ((240, 120, 0), (24, 168, 240)):  # boxes and plates of labels, in the order of the codebook
+            self.assertGreater((pixels == color).all(2).sum(), 300)
+        pictures.close()
 
     def test_shows_keypoints_and_votes_to_who_asks(self):
         keypoints = support.Recorder("/detector/keypoints", PointCloud2)

@@ -161,8 +161,7 @@ TEST_F(CloudInputTest, SaysThatATopicIsNotOneOfClouds) {
 TEST_F(CloudInputTest, NamesTheTopicsOfCloudsWhereThereIsNoPublisher) {
   EXPECT_EQ(describeInput("/nothing", 0, "/other"),
             "it has no publisher; topics of clouds are " + publisher_.getTopic());
-  EXPECT_EQ(describeInput("/nothing", 0, handle_.getNamespace()),
-            "it has no publisher; no topic of clouds has one");
+  EXPECT_EQ(describeInput("/nothing", 0, handle_.getNamespace()), "it has no publisher; no topic of clouds has one");
   EXPECT_EQ(describeInput(publisher_.getTopic(), 1, "/other"), "it has 1 publisher");
 }
 
