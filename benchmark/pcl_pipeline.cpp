@@ -40,9 +40,8 @@ float curvature(const pcl::PointCloud<pcl::Normal>& normals, const pcl::Indices&
 }  // namespace
 
 PclPipeline::PclPipeline(const Codebook& codebook, const Settings& settings, int threads)
-    : codebook_(codebook), settings_(settings), threads_(threads) {
-  const DescriptorMatrix& words = codebook.descriptors;
-  const flann::Matrix<float> matrix(const_cast<float*>(words.data()), words.rows(), words.cols());
+    : codebook_(codebook), words_(codebook.descriptors.values()), settings_(settings), threads_(threads) {
+  const flann::Matrix<float> matrix(const_cast<float*>(words_.data()), words_.rows(), words_.cols());
   index_ = std::make_unique<flann::Index<flann::ChiSquareDistance<float>>>(matrix, flann::KDTreeIndexParams(4));
   index_->buildIndex();
 }

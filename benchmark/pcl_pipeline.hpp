@@ -43,6 +43,7 @@ private:
   std::vector<Found> findPoses(std::uint32_t object, const std::vector<Vote>& votes) const;
 
   const Codebook& codebook_;
+  DescriptorMatrix words_;
   Settings settings_;
   int threads_;
   std::unique_ptr<flann::Index<flann::ChiSquareDistance<float>>> index_;

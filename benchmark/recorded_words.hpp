@@ -36,7 +36,7 @@ inline const RecordedWords* recordedWords(benchmark::State& state) {
   Keypoints keypoints = detectKeypoints(surface, settings.keypoints, threads);
   measureCurvature(surface, keypoints, settings.keypoints, settings.surface, threads);
   keypoints = selectKeypoints(keypoints, settings.keypoints);
-  recorded = {codebook.descriptors,
+  recorded = {codebook.descriptors.values(),
               computeDescriptors(surface, keypoints, codebook.descriptor_type, settings.descriptor, threads).values};
   return &*recorded;
 }

@@ -23,7 +23,7 @@ void resetPeak() {
 }
 
 double bytesOf(const Codebook& codebook) {
-  double bytes = double(codebook.descriptors.rows() * codebook.descriptors.cols()) * sizeof(float);
+  double bytes = double(codebook.descriptors.rows() * codebook.descriptors.cols());
   bytes += double(codebook.words.size()) * sizeof(Codeword);
   for (const TrainingView& view : codebook.views) bytes += double(view.surface_points.size()) * 6 * sizeof(float);
   return bytes;

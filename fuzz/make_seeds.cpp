@@ -65,9 +65,9 @@ void codebooks(const std::string& folder) {
   sks::Codebook codebook = sks::fuzz::smallCodebook();
   sks::writeCodebook(corpus.path("whole"), codebook);
   codebook.words.resize(2);
-  codebook.descriptors = {
-      std::vector<float>(codebook.descriptors.data(), codebook.descriptors.data() + 2 * codebook.descriptors.cols()),
-      codebook.descriptors.cols()};
+  const sks::QuantizedDescriptors all = codebook.descriptors;
+  codebook.descriptors = sks::QuantizedDescriptors(all.levels(0), all.scales(), 2, all.cols(),
+                                                   std::make_shared<const sks::QuantizedDescriptors>(all));
   for (sks::TrainingView& view : codebook.views) {
     view.surface_points.resize(3);
     view.surface_normals.resize(3);

@@ -137,9 +137,8 @@ TEST(AnyThreads, TrainTheSame) {
       settings.threads = threads;
       const Codebook codebook =
           train({{"bumps", "bumps.pcd", kind, [] { return test::bumps(); }, {}, {}}}, settings, "b");
-      const std::vector<float> values(
-          codebook.descriptors.data(),
-          codebook.descriptors.data() + codebook.descriptors.rows() * codebook.descriptors.cols());
+      const DescriptorMatrix rows = codebook.descriptors.values();
+      const std::vector<float> values(rows.data(), rows.data() + rows.rows() * rows.cols());
       if (threads == 1) first = values;
       ASSERT_FALSE(values.empty());
       EXPECT_EQ(values, first) << threads;

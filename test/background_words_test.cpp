@@ -56,10 +56,11 @@ TEST(BackgroundWords, AreHistogramsAndRemembered) {
   ASSERT_NE(words, nullptr);
   EXPECT_GT(words->words().rows(), 1000u);
   EXPECT_EQ(words->words().cols(), shot_size);
+  std::vector<float> bins;
   for (std::size_t row = 0; row < words->words().rows(); row += 100) {
     double square = 0;
-    for (std::size_t bin = 0; bin < shot_size; ++bin) square += std::pow(words->words().row(row)[bin], 2);
-    EXPECT_NEAR(square, 1, 1e-4);
+    for (std::size_t bin = 0; bin < shot_size; ++bin) square += std::pow(words->words().row(row, bins)[bin], 2);
+    EXPECT_NEAR(square, 1, 0.01);
   }
   EXPECT_EQ(backgroundWords(settings), words);
   Settings larger;
@@ -72,12 +73,13 @@ TEST(BackgroundWords, AreHistogramsAndRemembered) {
 
 TEST(BackgroundWords, TakeVotesOfWhatResemblesThemMore) {
   const std::size_t size = 32;
-  const Rows rows = histograms(4, size, 3), queries = histograms(60, size, 4), background = histograms(30, size, 5);
+  const Rows rows = rounded(histograms(4, size, 3)), queries = histograms(60, size, 4),
+             background = histograms(30, size, 5);
   Codebook codebook;
   codebook.objects = {"a"};
   codebook.views.resize(1);
   codebook.words.resize(rows.size());
-  codebook.descriptors = matrix(rows, size);
+  codebook.descriptors = quantized(rows, size);
   const NearestWord competing(matrix(background, size), true);
   const auto matches = ObjectMatcher(codebook).match(matrix(queries, size), 1.3, 2, &competing);
 

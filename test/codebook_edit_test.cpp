@@ -34,7 +34,7 @@ Codebook toys() {
     codebook.words.push_back(word);
     values.insert(values.end(), shot_size, float(i));
   }
-  codebook.descriptors = DescriptorMatrix(std::move(values), shot_size);
+  codebook.descriptors = QuantizedDescriptors(DescriptorMatrix(std::move(values), shot_size));
   codebook.checksum.set(5);
   return codebook;
 }
@@ -50,7 +50,7 @@ TEST(WithoutObject, KeepsAllOfTheOthers) {
   const std::uint32_t kept[] = {0, 2, 3, 5};
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(rest->words[i].position.x(), float(kept[i]));
-    EXPECT_EQ(rest->descriptors.row(i)[shot_size - 1], float(kept[i]));
+    EXPECT_FLOAT_EQ(rest->descriptors.values().row(i)[shot_size - 1], float(kept[i]));
     EXPECT_EQ(rest->views[rest->words[i].view].source, std::to_string(kept[i]));
     EXPECT_EQ(rest->objectOf(rest->words[i]), kept[i] % 3 == 0 ? "mario" : "duck");
   }

@@ -61,7 +61,7 @@ sks::Codebook makeCodebook(sks::DescriptorType type = sks::DescriptorType::shot)
     codebook.words.push_back(word);
     for (std::size_t bin = 0; bin < sks::descriptorSize(type); ++bin) values.push_back(number(random));
   }
-  codebook.descriptors = sks::DescriptorMatrix(std::move(values), sks::descriptorSize(type));
+  codebook.descriptors = sks::QuantizedDescriptors(sks::DescriptorMatrix(std::move(values), sks::descriptorSize(type)));
   return codebook;
 }
 
@@ -137,21 +137,23 @@ TEST_F(CodebookFile, RoundTripKeepsEverything) {
     }
     ASSERT_EQ(back->descriptors.rows(), codebook.descriptors.rows());
     ASSERT_EQ(back->descriptors.cols(), codebook.descriptors.cols());
-    EXPECT_EQ(std::memcmp(back->descriptors.data(), codebook.descriptors.data(),
-                          back->descriptors.rows() * back->descriptors.cols() * sizeof(float)),
-              0);
-    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(back->descriptors.data()) % 64, 0u);
+    for (std::size_t row = 0; row < back->descriptors.rows(); ++row) {
+      EXPECT_EQ(back->descriptors.scale(row), codebook.descriptors.scale(row));
+      EXPECT_EQ(std::memcmp(back->descriptors.levels(row), codebook.descriptors.levels(row), back->descriptors.cols()),
+                0);
+    }
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(back->descriptors.levels(0)) % 64, 0u);
   }
 }
 
 TEST_F(CodebookFile, DescriptorsOutliveTheCodebook) {
   sks::writeCodebook(path_, makeCodebook());
   auto codebook = sks::readCodebook(path_);
-  const sks::DescriptorMatrix descriptors = codebook->descriptors;
-  const float last = makeCodebook().descriptors.row(1)[351];
+  const sks::QuantizedDescriptors descriptors = codebook->descriptors;
+  const float last = makeCodebook().descriptors.values().row(1)[351];
   codebook.reset();
   ::unlink(path_.c_str());
-  EXPECT_EQ(descriptors.row(1)[351], last);
+  EXPECT_EQ(descriptors.values().row(1)[351], last);
 }
 
 TEST_F(CodebookFile, SameCodebookSameBytes) {
@@ -241,8 +243,30 @@ TEST_F(CodebookFile, EveryFlippedByteIsRefused) {
 }
 
 TEST_F(CodebookFile, NewerVersionAsksForAnUpdate) {
-  EXPECT_EQ(readError(withHeader(content(), [](sks::CodebookHeader& header) { header.version = 2; })),
-            "it was written by a newer version (file format 2, this build reads up to 1): update sks_detector");
+  EXPECT_EQ(readError(withHeader(content(), [](sks::CodebookHeader& header) { header.version = 3; })),
+            "it was written by a newer version (file format 3, this build reads up to 2): update sks_detector");
+}
+
+TEST_F(CodebookFile, FloatsOfTheFirstVersionAreRounded) {
+  const sks::Codebook codebook = makeCodebook();
+  const sks::DescriptorMatrix values = codebook.descriptors.values();
+  writeFile(path_, sks::test::ofFirstVersion(content(), values));
+  const auto back = sks::readCodebook(path_);
+  EXPECT_EQ(back->words.size(), 2u);
+  EXPECT_EQ(back->views.size(), 3u);
+  ASSERT_EQ(back->descriptors.rows(), 2u);
+  for (std::size_t row = 0; row < 2; ++row) {
+    EXPECT_EQ(std::memcmp(back->descriptors.levels(row), codebook.descriptors.levels(row), values.cols()), 0);
+  }
+  EXPECT_FLOAT_EQ(back->descriptors.scale(1), codebook.descriptors.scale(1));
+
+  const std::vector<float> three(3 * values.cols(), 0.1f), negative(2 * values.cols(), -0.1f);
+  writeFile(path_, sks::test::ofFirstVersion(content(), sks::DescriptorMatrix(three, values.cols())));
+  EXPECT_EQ(readError(), "its 2 codewords have 3 descriptors of 352 bins; train it again");
+  writeFile(path_, sks::test::ofFirstVersion(content(), sks::DescriptorMatrix({1, 2, 3}, 3)));
+  EXPECT_EQ(readError(), "its descriptors have no whole rows; train it again");
+  writeFile(path_, sks::test::ofFirstVersion(content(), sks::DescriptorMatrix(negative, values.cols())));
+  EXPECT_EQ(readError(), "descriptor 0 is no histogram: bin 0 is -0.100000; train it again");
 }
 
 TEST_F(CodebookFile, SectionsMustLieInsideTheFile) {
@@ -263,9 +287,9 @@ TEST_F(CodebookFile, SectionsMustLieInsideTheFile) {
               "it is damaged (its checksum does not match); copy or train it again");
   }
   EXPECT_EQ(readError(withHeader(whole, [](sks::CodebookHeader& header) { header.descriptors_size -= 4; })),
-            "its descriptors have no whole rows; train it again");
-  EXPECT_EQ(readError(withHeader(whole, [](sks::CodebookHeader& header) { header.descriptors_size -= 1408; })),
-            "its 2 codewords have 1 descriptors of 352 bins; train it again");
+            "its 2 codewords have not one descriptor each; train it again");
+  EXPECT_EQ(readError(withHeader(whole, [](sks::CodebookHeader& header) { header.descriptors_size = 0; })),
+            "its 2 codewords have not one descriptor each; train it again");
   EXPECT_EQ(readError(withHeader(whole, [](sks::CodebookHeader& header) { header.metadata_size = 0; })),
             "its metadata is damaged; train it again");
 }
@@ -273,7 +297,7 @@ TEST_F(CodebookFile, SectionsMustLieInsideTheFile) {
 /// Damage that a checksum cannot show, because it was made before: reading ends with a codebook or an Error.
 TEST_F(CodebookFile, MetadataIsVerifiedBehindTheChecksum) {
   const std::string whole = content();
-  const std::size_t metadata_end = whole.size() - 2 * 352 * sizeof(float);
+  const std::size_t metadata_end = whole.size() - 64 - 2 * 352;
   std::size_t refused = 0;
   for (std::size_t at = 64; at < metadata_end; ++at) {
     std::string damaged = whole;
@@ -386,6 +410,10 @@ TEST_F(CodebookFile, OnlySoundCodebooksAreWritten) {
   codebook = makeCodebook();
   codebook.words.pop_back();
   EXPECT_EQ(writeError(codebook), "its 1 codewords have 2 descriptors of 352 bins");
+  codebook = makeCodebook();
+  const float scales[] = {1, std::numeric_limits<float>::infinity()};
+  codebook.descriptors = sks::QuantizedDescriptors(codebook.descriptors.levels(0), scales, 2, 352, {});
+  EXPECT_EQ(writeError(codebook), "its codeword 1 has a descriptor that is none");
   codebook = makeCodebook();
   codebook.words[0].frame(1, 1) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(writeError(codebook), "its codeword 0 has a reference frame whose axes are no unit vectors");

@@ -51,7 +51,7 @@ Codebook codebookOf(const std::string& name, std::size_t words) {
   codebook.objects = {"mug"};
   codebook.views.resize(1);
   codebook.words.resize(words);
-  codebook.descriptors = DescriptorMatrix(std::vector<float>(words * 352, 0.5f), 352);
+  codebook.descriptors = QuantizedDescriptors(DescriptorMatrix(std::vector<float>(words * 352, 0.5f), 352));
   return codebook;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <sks_detector/stages/descriptors.hpp>
+#include <sks_detector/stages/quantized_descriptors.hpp>
 
 namespace sks::test {
 
@@ -40,6 +41,18 @@ inline DescriptorMatrix matrix(const Rows& rows, std::size_t cols) {
   std::vector<float> values;
   for (const auto& row : rows) values.insert(values.end(), row.begin(), row.end());
   return DescriptorMatrix(values, cols);
+}
+
+inline QuantizedDescriptors quantized(const Rows& rows, std::size_t cols) {
+  return QuantizedDescriptors(matrix(rows, cols));
+}
+
+/// As a codebook keeps them.
+inline Rows rounded(const Rows& rows) {
+  const DescriptorMatrix values = quantized(rows, rows.front().size()).values();
+  Rows result;
+  for (std::size_t i = 0; i < values.rows(); ++i) result.emplace_back(values.row(i), values.row(i) + values.cols());
+  return result;
 }
 
 inline double plainChiSquared(const std::vector<float>& a, const std::vector<float>& b) {

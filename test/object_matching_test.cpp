@@ -21,13 +21,13 @@ Codebook codebookOf(const Rows& words, std::size_t size) {
     codebook.words.push_back({});
     codebook.words.back().view = std::uint32_t(i * 4 / words.size());
   }
-  codebook.descriptors = matrix(words, size);
+  codebook.descriptors = quantized(words, size);
   return codebook;
 }
 
 TEST(ObjectMatching, FindsTheNearestWordOfEachObjectThatIsNearlyAsNear) {
   const std::size_t size = 32;
-  const Rows words = histograms(120, size, 3), queries = histograms(40, size, 4);
+  const Rows words = rounded(histograms(120, size, 3)), queries = histograms(40, size, 4);
   const Codebook codebook = codebookOf(words, size);
   const double ambiguity = 1.2;
 
@@ -81,7 +81,7 @@ TEST(ObjectMatching, WithoutAmbiguityEqualsTheNearestOfAll) {
   words[70] = words[10];  // of equally near words the first
   Rows queries = histograms(40, size, 4);
   queries[5] = words[10];
-  const auto all = Matcher(matrix(words, size)).match(matrix(queries, size), 1);
+  const auto all = Matcher(quantized(words, size)).match(matrix(queries, size), 1);
   const auto matches = ObjectMatcher(codebookOf(words, size)).match(matrix(queries, size), 1, 2);
   ASSERT_EQ(matches.size(), all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {

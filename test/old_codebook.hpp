@@ -22,6 +22,18 @@ inline std::string sealed(std::string content) {
   return content.replace(0, sizeof(header), reinterpret_cast<const char*>(&header), sizeof(header));
 }
 
+/// The file as the first version of the format: its descriptors are floats.
+inline std::string ofFirstVersion(std::string content, const DescriptorMatrix& descriptors) {
+  CodebookHeader header;
+  std::memcpy(&header, content.data(), sizeof(header));
+  header.version = 1;
+  header.descriptors_size = descriptors.rows() * descriptors.cols() * sizeof(float);
+  content.resize(header.descriptors_offset);
+  content.append(reinterpret_cast<const char*>(descriptors.data()), header.descriptors_size);
+  header.file_size = content.size();
+  return sealed(content.replace(0, sizeof(header), reinterpret_cast<const char*>(&header), sizeof(header)));
+}
+
 /// The file as it was written before settings moved.
 /// @param settings that it holds
 /// @param candidates that it then holds; 0 for hypotheses from the Hough space

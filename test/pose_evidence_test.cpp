@@ -92,11 +92,27 @@ TEST(PoseEvidence, FlatPartsAreLessTellingThanEdges) {
   EXPECT_LE(*most, 1);
 }
 
+TEST(PoseEvidence, APointWeighsTheSameAloneAndAmongAll) {
+  const TrainingView view = trained();
+  const SurfaceWeights all(view);
+  const RoughSurface some(view);
+  const std::size_t stride = (view.surface_points.size() + some.shape.size() - 1) / some.shape.size();
+  ASSERT_GT(stride, 1u);
+  for (std::size_t i = 0; i < some.shape.size(); ++i) {
+    EXPECT_EQ(some.shape[i], all.shape[i * stride]);
+    EXPECT_EQ(some.shape_and_color[i], all.shape_and_color[i * stride]);
+  }
+  const std::vector<TrainingView> views(3, view);
+  const WeightsOfViews lazy(views);
+  EXPECT_EQ(lazy[2].shape, all.shape);
+  EXPECT_EQ(&lazy[2], &lazy[2]);
+}
+
 TEST(PoseEvidence, RoughSupportTellsAGoodPoseFromABadOne) {
   const Settings settings;
   const Surface scene = sceneWith();
   const SceneView scene_view(scene, settings);
-  const RoughSurface surface(trained(), SurfaceWeights(trained()));
+  const RoughSurface surface(trained());
   const RoughSupport good = roughSupport(surface, scene_view, moved(0.004, 0, 0));
   const RoughSupport bad = roughSupport(surface, scene_view, moved(0, 0, -0.2));
   EXPECT_GT(good.points, 50);

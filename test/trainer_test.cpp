@@ -30,7 +30,7 @@ std::string trainingError(ErrorCode code, const std::vector<sks::TrainingSample>
 }
 
 std::vector<float> valuesOf(const sks::Codebook& codebook) {
-  const sks::DescriptorMatrix& rows = codebook.descriptors;
+  const sks::DescriptorMatrix rows = codebook.descriptors.values();
   return {rows.data(), rows.data() + rows.rows() * rows.cols()};
 }
 
@@ -131,7 +131,12 @@ TEST(Trainer, AutomaticDescriptorIsCshotWhereAllCloudsHaveColor) {
   ASSERT_EQ(mixed.words.size(), expected.words.size());
   const auto a = valuesOf(mixed), b = valuesOf(expected);
   ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 1e-6f);
+  std::size_t rounded_otherwise = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    ASSERT_NEAR(a[i], b[i], 0.01f);
+    rounded_otherwise += std::abs(a[i] - b[i]) > 1e-6f;
+  }
+  EXPECT_LT(rounded_otherwise, a.size() / 1000);
 }
 
 TEST(Trainer, AutomaticDescriptorIsShotForMeshes) {

@@ -13,7 +13,7 @@
 #include <Eigen/Geometry>
 
 #include <sks_detector/settings.hpp>
-#include <sks_detector/stages/descriptors.hpp>
+#include <sks_detector/stages/quantized_descriptors.hpp>
 #include <sks_detector/stages/surface.hpp>
 
 namespace sks {
@@ -95,8 +95,8 @@ struct Codebook {
   std::vector<std::string> objects;                       ///< names, in order of their first training cloud
   std::vector<TrainingView> views;
   std::vector<Codeword> words;
-  DescriptorMatrix descriptors;  ///< words.size() rows
-  RememberedChecksum checksum;   ///< for codebookChecksum()
+  QuantizedDescriptors descriptors;  ///< words.size() rows
+  RememberedChecksum checksum;       ///< for codebookChecksum()
 
   const std::string& objectOf(const Codeword& word) const { return objects[views[word.view].object]; }
   /// "shot", "cshot" or the name of the user's DescriptorStage.

@@ -10,7 +10,7 @@
 namespace sks {
 
 /// Version of the file format that this build writes; it reads this and all earlier ones.
-constexpr std::uint32_t codebook_file_version = 1;
+constexpr std::uint32_t codebook_file_version = 2;
 
 /// Writes a codebook whole or not at all (temporary name, sync, rename); see docs/codebook_file.md.
 /// @return codebookChecksum()
@@ -29,8 +29,8 @@ bool writeNewCodebook(const std::string& path, const Codebook& codebook);
 std::uint32_t codebookChecksum(const Codebook& codebook);
 
 /// Reads a codebook file whole, so that whoever writes to it later changes nothing; descriptors stay where they were
-/// read to, as long as the result lives. Checks magic, version, checksum, FlatBuffers verifier and every index and
-/// length before anything is used.
+/// read to, as long as the result lives (those of version 1, which were floats, are rounded). Checks magic, version,
+/// checksum, FlatBuffers verifier and every index and length before anything is used.
 /// @return not null; what Detector takes
 /// @throws Error(bad_file) naming the path and what is wrong: missing, foreign, truncated, damaged, newer
 std::shared_ptr<const Codebook> readCodebook(const std::string& path);

@@ -17,12 +17,12 @@
 
 namespace sks {
 
-/// One training cloud, loaded when its turn comes so that only one is in memory at a time.
+/// One training cloud, loaded when its turn comes so that few are in memory at a time.
 struct TrainingSample {
   std::string object;  ///< name
   std::string source;  ///< for people and for pose frames: the cloud's path in the data set file
   ViewKind kind = ViewKind::view;
-  std::function<Cloud()> load;
+  std::function<Cloud()> load;             ///< of rendered ones called by several threads at once
   std::string frame;                       ///< of views that are registered to each other: name of their common frame
   std::optional<Eigen::AlignedBox3f> box;  ///< of the whole object [m]; else the box of the cloud is taken
   bool rendered = false;                   ///< from a mesh, whose colours are not those of the camera that detects
@@ -35,7 +35,7 @@ struct TrainingSample {
 /// Section 3.1: normals, grid keypoints without selection, descriptors, one codeword each. Deterministic, for any
 /// number of threads; may be called from several threads at once.
 /// @param name of the codebook
-/// @param progress called before each sample, and once at the end
+/// @param progress called before each sample, by the calling thread, and once at the end
 /// @param stages in place of this package's own; the verifier is not used
 /// @return what Detector and writeCodebook() take
 /// @throws Error(bad_usage) for no samples, invalid settings or a descriptor stage whose name cannot be stored;

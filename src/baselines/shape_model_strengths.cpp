@@ -51,7 +51,7 @@ pcl::features::ISMModel::Ptr trainShapeModel(const Codebook& codebook, const Set
     normals.push_back(views[i].normals);
     classes.push_back(codebook.views[i].object);
   }
-  ShapeModelEstimation estimation = makeEstimation(settings, own, codebook.descriptors);
+  ShapeModelEstimation estimation = makeEstimation(settings, own, codebook.descriptors.values());
   estimation.setTrainingClouds(clouds);
   estimation.setTrainingNormals(normals);
   estimation.setTrainingClasses(classes);

@@ -117,7 +117,7 @@ bool readDescriptorText(const std::string& text, Codebook& codebook) {
 
 std::string codebookFault(const Codebook& codebook) {
   const std::size_t columns = codebook.descriptorSize();
-  const DescriptorMatrix& descriptors = codebook.descriptors;
+  const QuantizedDescriptors& descriptors = codebook.descriptors;
   if (columns == 0) return "its descriptor type is not decided";
   if (descriptors.rows() != codebook.words.size() || (descriptors.rows() > 0 && descriptors.cols() != columns)) {
     return "its " + std::to_string(codebook.words.size()) + " codewords have " + std::to_string(descriptors.rows()) +
@@ -140,6 +140,8 @@ std::string codebookFault(const Codebook& codebook) {
     if (word.view >= codebook.views.size()) return name + " belongs to a training cloud that is not there";
     if (!within(word.position, largest_length)) return name + " does not lie within 1000 km";
     if (!within(word.frame, largest_of_unit)) return name + " has a reference frame whose axes are no unit vectors";
+    const float scale = descriptors.scale(i);
+    if (!(scale >= 0 && scale <= QuantizedDescriptors::largest_bin)) return name + " has a descriptor that is none";
   }
   return "";
 }

@@ -15,6 +15,19 @@ namespace sks {
 /// Start of every section, and size of the header.
 constexpr std::uint64_t codebook_alignment = 64;
 
+/// The first version whose descriptors are levels and scales, as in QuantizedDescriptors; they were floats before.
+constexpr std::uint32_t first_quantized_version = 2;
+
+/// The start of a section behind what ends at an offset.
+constexpr std::uint64_t alignedOffset(std::uint64_t end) {
+  return (end + codebook_alignment - 1) / codebook_alignment * codebook_alignment;
+}
+
+/// Where the levels of descriptors begin in their section, behind the scales of the rows [bytes].
+constexpr std::uint64_t levelsOffset(std::uint64_t rows) {
+  return alignedOffset(rows * sizeof(float));
+}
+
 /// FlatBuffers' own limit, 2 GiB less one byte.
 constexpr std::uint64_t largest_metadata = 2147483646;
 
@@ -56,7 +69,7 @@ std::string descriptorText(const Codebook& codebook);
 bool readDescriptorText(const std::string& text, Codebook& codebook);
 
 /// Why the parts of a codebook do not fit together (an index or count out of range, a number that is not finite);
-/// empty if they do. The descriptors themselves are not looked at.
+/// empty if they do.
 std::string codebookFault(const Codebook& codebook);
 
 }  // namespace sks

@@ -95,13 +95,28 @@ bool takesWhatItStores(const format::Codebook& from, std::uint64_t stored) {
   return bytes <= stored;
 }
 
-/// The descriptor section, in place.
-DescriptorMatrix descriptorsOf(const std::shared_ptr<const FileContent>& file, const CodebookHeader& header,
-                               std::size_t columns) {
+/// Descriptors of the first version, rounded.
+QuantizedDescriptors floatDescriptors(const std::shared_ptr<const FileContent>& file, const CodebookHeader& header,
+                                      std::size_t columns) {
   const std::uint64_t row = columns * sizeof(float);
   if (header.descriptors_size % row != 0) badCodebook("its descriptors have no whole rows; train it again");
   const auto* data = reinterpret_cast<const float*>(file->data() + header.descriptors_offset);
-  return {data, std::size_t(header.descriptors_size / row), columns, file};
+  try {
+    return QuantizedDescriptors(DescriptorMatrix(data, std::size_t(header.descriptors_size / row), columns, file));
+  } catch (const Error& error) {
+    badCodebook(std::string(error.what()) + "; train it again");
+  }
+}
+
+/// The descriptor section, in place.
+QuantizedDescriptors descriptorsOf(const std::shared_ptr<const FileContent>& file, const CodebookHeader& header,
+                                   std::size_t rows, std::size_t columns) {
+  const std::uint64_t levels = levelsOffset(rows);
+  if (header.descriptors_size < levels || header.descriptors_size - levels != std::uint64_t(rows) * columns) {
+    badCodebook("its " + std::to_string(rows) + " codewords have not one descriptor each; train it again");
+  }
+  const std::uint8_t* section = file->data() + header.descriptors_offset;
+  return {section + levels, reinterpret_cast<const float*>(section), rows, columns, file};
 }
 
 std::shared_ptr<const Codebook> read(const std::shared_ptr<const FileContent>& file) {
@@ -125,7 +140,9 @@ std::shared_ptr<const Codebook> read(const std::shared_ptr<const FileContent>& f
   for (const auto* view : *from.views()) codebook->views.push_back(fromFormat(*view));
   codebook->words.reserve(from.words()->size());
   for (const auto* word : *from.words()) codebook->words.push_back(fromFormat(*word));
-  codebook->descriptors = descriptorsOf(file, header, from.descriptor_size());
+  codebook->descriptors = header.version < first_quantized_version
+                              ? floatDescriptors(file, header, from.descriptor_size())
+                              : descriptorsOf(file, header, codebook->words.size(), from.descriptor_size());
   codebook->checksum.set(header.payload_checksum);
   const std::string fault = codebookFault(*codebook);
   if (!fault.empty()) badCodebook(fault + "; train it again");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <vector>
 
 #include <sks_detector/codebook_file.hpp>
@@ -85,10 +86,28 @@ void build(flatbuffers::FlatBufferBuilder& builder, const Codebook& codebook) {
 
 /// What stands in a codebook file, but for the descriptors.
 struct FileParts {
-  flatbuffers::FlatBufferBuilder metadata{1 << 20};
-  std::vector<char> padding;
+  explicit FileParts(std::uint64_t metadata_bound) : metadata(std::size_t(metadata_bound)) {}
+
+  flatbuffers::FlatBufferBuilder metadata;  // of the size that it needs at most: to grow it would be to copy it
   CodebookHeader header;
 };
+
+std::size_t levelsSize(const QuantizedDescriptors& descriptors) {
+  return descriptors.rows() * descriptors.cols();
+}
+
+/// Hands over what follows the header, piece by piece.
+template <typename Function>
+void forEachPiece(const FileParts& parts, const Codebook& codebook, Function&& take) {
+  static constexpr std::array<char, codebook_alignment> zeros{};
+  const QuantizedDescriptors& descriptors = codebook.descriptors;
+  const std::size_t scales_size = descriptors.rows() * sizeof(float);
+  take(parts.metadata.GetBufferPointer(), parts.header.metadata_size);
+  take(zeros.data(), parts.header.descriptors_offset - parts.header.metadata_offset - parts.header.metadata_size);
+  take(descriptors.scales(), scales_size);
+  take(zeros.data(), levelsOffset(descriptors.rows()) - scales_size);
+  take(descriptors.levels(0), levelsSize(descriptors));
+}
 
 FileParts makeParts(const Codebook& codebook, const std::string& path) {
   const auto fail = [&](const std::string& reason) {
@@ -96,27 +115,27 @@ FileParts makeParts(const Codebook& codebook, const std::string& path) {
   };
   const std::string fault = codebookFault(codebook);
   if (!fault.empty()) fail(fault);
-  if (metadataBound(codebook) > largest_metadata) {
+  const std::uint64_t metadata_bound = metadataBound(codebook);
+  if (metadata_bound > largest_metadata) {
     fail(
         "the surfaces and codewords of its training clouds exceed 2 GiB; raise training.surface_resolution or "
         "keypoints.grid_size");
   }
-  FileParts parts;
+  FileParts parts(metadata_bound);
   build(parts.metadata, codebook);
 
-  const DescriptorMatrix& descriptors = codebook.descriptors;
+  const QuantizedDescriptors& descriptors = codebook.descriptors;
   CodebookHeader& header = parts.header;
   header.version = codebook_file_version;
   header.metadata_offset = sizeof(header);
   header.metadata_size = parts.metadata.GetSize();
   const std::uint64_t metadata_end = header.metadata_offset + header.metadata_size;
-  parts.padding.resize((codebook_alignment - metadata_end % codebook_alignment) % codebook_alignment, 0);
-  header.descriptors_offset = metadata_end + parts.padding.size();
-  header.descriptors_size = std::uint64_t(descriptors.rows()) * descriptors.cols() * sizeof(float);
+  header.descriptors_offset = alignedOffset(metadata_end);
+  header.descriptors_size = levelsOffset(descriptors.rows()) + levelsSize(descriptors);
   header.file_size = header.descriptors_offset + header.descriptors_size;
-  header.payload_checksum = crc32c(parts.metadata.GetBufferPointer(), header.metadata_size);
-  header.payload_checksum = crc32c(parts.padding.data(), parts.padding.size(), header.payload_checksum);
-  header.payload_checksum = crc32c(descriptors.data(), header.descriptors_size, header.payload_checksum);
+  forEachPiece(parts, codebook, [&](const void* data, std::size_t size) {
+    header.payload_checksum = crc32c(data, size, header.payload_checksum);
+  });
   header.header_checksum = header.ownChecksum();
   return parts;
 }
@@ -124,9 +143,7 @@ FileParts makeParts(const Codebook& codebook, const std::string& path) {
 /// All but the name of the file.
 void writeParts(const FileParts& parts, const Codebook& codebook, AtomicFile& file) {
   file.write(&parts.header, sizeof(parts.header));
-  file.write(parts.metadata.GetBufferPointer(), parts.header.metadata_size);
-  file.write(parts.padding.data(), parts.padding.size());
-  file.write(codebook.descriptors.data(), parts.header.descriptors_size);
+  forEachPiece(parts, codebook, [&](const void* data, std::size_t size) { file.write(data, size); });
 }
 
 }  // namespace

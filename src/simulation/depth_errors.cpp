@@ -43,6 +43,10 @@ DepthErrors::DepthErrors(const CameraModel& camera, std::uint64_t frame, int thr
 }
 
 Eigen::Vector2d DepthErrors::lateral(std::size_t pixel, PixelRandom& random) const {
+  if (!camera_.noise.lateral) {
+    random.skip(2);
+    return Eigen::Vector2d::Zero();
+  }
   const auto [aside, down] = random.normal();
   const double sigma = camera_.noise.lateral_sigma;
   return aside_.empty() ? Eigen::Vector2d(sigma * aside, sigma * down)
@@ -53,7 +57,7 @@ double DepthErrors::measured(const SeenSurface& surface, std::size_t pixel, Pixe
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const CameraNoise& noise = camera_.noise;
   const double angle = std::acos(double(surface.cosine)), degrees = angle * 180 / EIGEN_PI;
-  const double luck = random.uniform(), error = random.normal().first;
+  const double luck = random.uniform();
   if (noise.grazing && luck < (degrees - noise.grazing_from) / (noise.grazing_to - noise.grazing_from)) return nan;
   if (noise.grazing || noise.dark) {
     double share = noise.grazing ? surface.lost : 0;
@@ -73,7 +77,7 @@ double DepthErrors::measured(const SeenSurface& surface, std::size_t pixel, Pixe
       const double step = depth * depth * noise.disparity_step / scale;
       variance = std::max(0.0, variance - step * step / 12);
     }
-    depth += error * std::sqrt(variance);
+    depth += random.normal().first * std::sqrt(variance);
   }
   if (noise.disparity) depth = quantizeDepth(camera_, depth);
   return noise.depth_step > 0 ? noise.depth_step * std::round(depth / noise.depth_step) : depth;

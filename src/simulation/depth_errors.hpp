@@ -31,9 +31,10 @@ public:
 
   /// Errors of neighbouring pixels are alike.
   bool smooth() const { return camera_.noise.disparity_sigma > 0; }
-  /// How far away from a pixel its depth is measured [px]. Always takes two random numbers.
+  /// How far away from a pixel its depth is measured [px]; 0 without lateral noise. Always takes two random numbers.
   Eigen::Vector2d lateral(std::size_t pixel, PixelRandom& random) const;
-  /// The depth that the sensor makes of a true one [m]; NaN where it loses it. Always takes as many random numbers.
+  /// The depth that the sensor makes of a true one [m]; NaN where it loses it. Nothing may be drawn for the
+  /// pixel afterwards.
   double measured(const SeenSurface& surface, std::size_t pixel, PixelRandom& random) const;
 
   bool needsEdges() const { return camera_.noise.edge_loss > 0; }

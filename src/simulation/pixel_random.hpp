@@ -18,6 +18,8 @@ public:
     state_ += step;
     return double(mix(state_) >> 11) * 0x1.0p-53;
   }
+  /// As if so many uniform numbers had been drawn.
+  void skip(unsigned count) { state_ += count * step; }
   /// Two independent standard normal numbers (Box and Muller).
   std::pair<double, double> normal() {
     const double radius = std::sqrt(-2 * std::log(1 - uniform())), angle = 2 * 3.14159265358979323846 * uniform();

@@ -30,6 +30,11 @@ struct Hit {
   Eigen::Vector3f normal = Eigen::Vector3f::UnitZ();  // towards the camera, in the world
 };
 
+/// From the first to the last pixel.
+Eigen::AlignedBox2i wholePicture(const CameraModel& camera) {
+  return {Eigen::Vector2i::Zero(), Eigen::Vector2i(camera.width - 1, camera.height - 1)};
+}
+
 Eigen::Matrix<float, 3, 4> toEmbree(const Eigen::Isometry3d& transform) {
   return transform.matrix().topRows<3>().cast<float>();
 }
@@ -65,6 +70,8 @@ struct Renderer::Impl {
   Rgb colorOf(const Hit& hit, const CameraModel& camera) const;
   Eigen::Vector3f lightOf(const Hit& hit, const Eigen::Vector3f& point, const CameraModel& camera,
                           const Eigen::Vector3f& to_light) const;
+  /// The pixels whose rays can meet anything; empty if there is none.
+  Eigen::AlignedBox2i window(const CameraModel& camera, const Eigen::Isometry3d& T_world_camera) const;
 };
 
 Hit Renderer::Impl::cast(const Eigen::Vector3f& origin, const Eigen::Vector3f& direction) const {
@@ -174,6 +181,28 @@ Eigen::Vector3f Renderer::Impl::lightOf(const Hit& hit, const Eigen::Vector3f& p
   return (1 - share + (lit ? 1.5f * share * slope : 0)) * toLinear(colorOf(hit, camera));
 }
 
+Eigen::AlignedBox2i Renderer::Impl::window(const CameraModel& camera, const Eigen::Isometry3d& T_world_camera) const {
+  constexpr double margin = 2;  // [px]
+  const Eigen::AlignedBox2i whole = wholePicture(camera);
+  RTCBounds bounds;
+  rtcGetSceneBounds(world, &bounds);
+  const Eigen::AlignedBox3d box(Eigen::Vector3f(bounds.lower_x, bounds.lower_y, bounds.lower_z).cast<double>(),
+                                Eigen::Vector3f(bounds.upper_x, bounds.upper_y, bounds.upper_z).cast<double>());
+  if (box.isEmpty()) return whole;
+  Eigen::AlignedBox2d seen;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d p = T_world_camera.inverse() * box.corner(Eigen::AlignedBox3d::CornerType(corner));
+    if (!(p.z() > 0)) return whole;
+    seen.extend(Eigen::Vector2d(camera.fx * p.x() / p.z() + camera.cx, camera.fy * p.y() / p.z() + camera.cy));
+  }
+  const Eigen::Vector2d size(camera.width, camera.height);
+  const auto pixel = [&](const Eigen::Vector2d& position) -> Eigen::Vector2i {
+    return position.cwiseMax(-1.0).cwiseMin(size).cast<int>();
+  };
+  return whole.intersection(
+      Eigen::AlignedBox2i(pixel(seen.min().array().floor() - margin), pixel(seen.max().array().ceil() + margin)));
+}
+
 Rendering Renderer::render(const CameraModel& camera, const Eigen::Isometry3d& T_world_camera, std::uint64_t frame,
                            int threads) const {
   validate(camera);
@@ -195,9 +224,11 @@ Rendering Renderer::render(const CameraModel& camera, const Eigen::Isometry3d& T
   std::vector<Eigen::Vector3f> light(developed ? pixels : 0, Eigen::Vector3f::Zero());
   std::vector<float> true_depth(errors.needsEdges() ? pixels : 0, far);
 
+  const bool moves_rays = noise.lateral || developed;  // by any number of pixels
+  const Eigen::AlignedBox2i window = moves_rays ? wholePicture(camera) : impl_->window(camera, T_world_camera);
 #pragma omp parallel for schedule(dynamic, 4) num_threads(threads)
-  for (int row = 0; row < camera.height; ++row) {
-    for (int column = 0; column < camera.width; ++column) {
+  for (int row = window.min().y(); row <= window.max().y(); ++row) {
+    for (int column = window.min().x(); column <= window.max().x(); ++column) {
       const std::size_t pixel = std::size_t(row) * std::size_t(camera.width) + std::size_t(column);
       const Eigen::Vector3f ray = camera.ray(column, row);
       const Hit seen = impl_->cast(eye, R_world_camera * ray);

@@ -31,7 +31,8 @@ std::shared_ptr<sks::Codebook> codebookOf(const std::string& name, double radius
   codebook->objects = {"thing"};
   codebook->views.resize(1);
   codebook->words.resize(1);
-  codebook->descriptors = sks::DescriptorMatrix(std::vector<float>(sks::shot_size, value), sks::shot_size);
+  codebook->descriptors =
+      sks::QuantizedDescriptors(sks::DescriptorMatrix(std::vector<float>(sks::shot_size, value), sks::shot_size));
   codebook->checksum.set(0xabc);
   return codebook;
 }

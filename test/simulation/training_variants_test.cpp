@@ -49,8 +49,10 @@ protected:
       ASSERT_EQ(codebook.words[i].frame, plain.words[i].frame) << i;
     }
     ASSERT_EQ(codebook.descriptors.cols(), plain.descriptors.cols());
-    const std::size_t bytes = sizeof(float) * plain.words.size() * std::size_t(plain.descriptors.cols());
-    EXPECT_EQ(std::memcmp(codebook.descriptors.data(), plain.descriptors.data(), bytes), 0);
+    const std::size_t levels = plain.words.size() * plain.descriptors.cols();
+    EXPECT_EQ(std::memcmp(codebook.descriptors.levels(0), plain.descriptors.levels(0), levels), 0);
+    EXPECT_EQ(
+        std::memcmp(codebook.descriptors.scales(), plain.descriptors.scales(), sizeof(float) * plain.words.size()), 0);
     ASSERT_EQ(codebook.views.size(), plain.views.size());
     for (std::size_t i = 0; i < plain.views.size(); ++i) {
       EXPECT_EQ(codebook.views[i].surface_points, plain.views[i].surface_points) << i;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <sks_detector/stages/descriptors.hpp>
+#include <sks_detector/stages/quantized_descriptors.hpp>
 
 namespace sks {
 
@@ -37,6 +38,7 @@ public:
   /// time that hardly grows with their number.
   /// @throws Error(bad_data) if the descriptors hold a negative or non-finite value
   explicit Matcher(DescriptorMatrix words, SearchKind search = SearchKind::automatic);
+  explicit Matcher(QuantizedDescriptors words, SearchKind search = SearchKind::automatic);
   ~Matcher();
   Matcher(Matcher&&) noexcept;
   Matcher& operator=(Matcher&&) noexcept;

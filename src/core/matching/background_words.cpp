@@ -64,7 +64,8 @@ std::shared_ptr<const NearestWord> describedThings(const Settings& settings, int
   std::vector<float> values;
   for (const auto& one : of_things) values.insert(values.end(), one.begin(), one.end());
   if (values.empty()) return nullptr;
-  return std::make_shared<const NearestWord>(DescriptorMatrix(std::move(values), shot_size), true);
+  return std::make_shared<const NearestWord>(QuantizedDescriptors(DescriptorMatrix(std::move(values), shot_size)),
+                                             true);
 }
 
 /// The values of all settings that the words depend on.

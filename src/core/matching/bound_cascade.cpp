@@ -13,7 +13,7 @@ constexpr std::size_t sample_pairs = 6 * row_multiple;
 /// Greedy agglomeration of bins, on sampled pairs of words.
 class Agglomeration {
 public:
-  explicit Agglomeration(const DescriptorMatrix& words);
+  explicit Agglomeration(const SearchedWords& words);
 
   std::size_t groups() const { return alive_.size(); }
   void mergeCheapest();
@@ -40,15 +40,19 @@ float chiTerm(float a, float b) {
   return (a - b) * (a - b) / (a + b + 1e-30f);
 }
 
-Agglomeration::Agglomeration(const DescriptorMatrix& words)
+Agglomeration::Agglomeration(const SearchedWords& words)
     : groups_(words.cols()), leader_(words.cols()), nearest_(words.cols()), nearest_cost_(words.cols()) {
   std::mt19937 random(1);
-  std::vector<const float*> first, second;
-  std::vector<float> weight;  // near and far pairs count alike
+  std::vector<std::vector<float>> first, second;
+  std::vector<float> weight, buffer;  // near and far pairs count alike
+  const auto anyWord = [&] {
+    const float* bins = words.row(random() % words.rows(), buffer);
+    return std::vector<float>(bins, bins + words.cols());
+  };
   for (std::size_t s = 0; s < sample_pairs; ++s) {
-    first.push_back(words.row(random() % words.rows()));
-    second.push_back(words.row(random() % words.rows()));
-    weight.push_back(1.0f / (chiSquaredFast(first[s], second[s], words.cols()) + 1e-6f));
+    first.push_back(anyWord());
+    second.push_back(anyWord());
+    weight.push_back(1.0f / (chiSquaredFast(first[s].data(), second[s].data(), words.cols()) + 1e-6f));
   }
   std::size_t empties = words.cols();  // the first empty bin
   for (std::size_t bin = 0; bin < words.cols(); ++bin) {
@@ -128,7 +132,7 @@ void BinMerge::apply(const float* descriptor, float* sums) const {
   for (std::size_t i = 0; i < group.size(); ++i) sums[group[i]] += descriptor[i];
 }
 
-std::vector<BinMerge> learnBoundCascade(const DescriptorMatrix& words, const std::vector<std::size_t>& sizes) {
+std::vector<BinMerge> learnBoundCascade(const SearchedWords& words, const std::vector<std::size_t>& sizes) {
   Agglomeration agglomeration(words);
   std::vector<BinMerge> levels;
   for (auto size = sizes.rbegin(); size != sizes.rend(); ++size) {

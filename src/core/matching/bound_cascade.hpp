@@ -4,9 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <sks_detector/stages/descriptors.hpp>
-
 #include "core/matching/chi_squared.hpp"
+#include "core/matching/searched_words.hpp"
 
 namespace sks {
 
@@ -29,6 +28,6 @@ struct BinMerge {
 /// together is learned from the words: those whose merging costs pairs of words least of their distance, one merge
 /// after the other; there are fewer groups than asked for where few bins hold anything. Every group of one level is a
 /// union of groups of the next, so bounds only grow. Deterministic.
-std::vector<BinMerge> learnBoundCascade(const DescriptorMatrix& words, const std::vector<std::size_t>& sizes);
+std::vector<BinMerge> learnBoundCascade(const SearchedWords& words, const std::vector<std::size_t>& sizes);
 
 }  // namespace sks

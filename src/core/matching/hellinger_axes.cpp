@@ -59,11 +59,11 @@ constexpr int power_iterations = 3;
 /// Square roots of some words, without the zeros, which are most of them.
 class SparseRoots {
 public:
-  explicit SparseRoots(const DescriptorMatrix& words)
-      : bins_(words.cols()), mean_(Eigen::VectorXf::Zero(words.cols())) {
+  explicit SparseRoots(const SearchedWords& words) : bins_(words.cols()), mean_(Eigen::VectorXf::Zero(words.cols())) {
     const std::size_t rows = std::min(words.rows(), sample_size);
+    std::vector<float> buffer;
     for (std::size_t row = 0; row < rows; ++row) {
-      const float* word = words.row(row * words.rows() / rows);
+      const float* word = words.row(row * words.rows() / rows, buffer);
       for (std::size_t bin = 0; bin < bins_; ++bin) {
         if (word[bin] == 0) continue;
         entries_.push_back({std::uint32_t(bin), std::sqrt(word[bin])});
@@ -126,7 +126,7 @@ RowMajor randomColumns(std::size_t rows, std::size_t columns) {
 
 }  // namespace
 
-HellingerAxes::HellingerAxes(const DescriptorMatrix& words, std::size_t count) {
+HellingerAxes::HellingerAxes(const SearchedWords& words, std::size_t count) {
   const SparseRoots roots(words);
   mean_ = roots.mean();
   mean_mass_ = roots.meanMass();

@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include <sks_detector/stages/descriptors.hpp>
+#include "core/matching/searched_words.hpp"
 
 namespace sks {
 
@@ -18,7 +18,7 @@ class HellingerAxes {
 public:
   HellingerAxes() = default;
   /// Learns at most `count` axes from (a sample of) the words; fewer if the descriptors have fewer bins. Deterministic.
-  HellingerAxes(const DescriptorMatrix& words, std::size_t count);
+  HellingerAxes(const SearchedWords& words, std::size_t count);
 
   /// Mean sum of a word.
   float meanMass() const { return mean_mass_; }

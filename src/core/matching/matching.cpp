@@ -27,6 +27,8 @@ struct Matcher::Index : NearestWord {
 
 Matcher::Matcher(DescriptorMatrix words, SearchKind search)
     : index_(std::make_unique<Index>(std::move(words), searchesExactly(search, words.rows()))) {}
+Matcher::Matcher(QuantizedDescriptors words, SearchKind search)
+    : index_(std::make_unique<Index>(std::move(words), searchesExactly(search, words.rows()))) {}
 Matcher::~Matcher() = default;
 Matcher::Matcher(Matcher&&) noexcept = default;
 Matcher& Matcher::operator=(Matcher&&) noexcept = default;

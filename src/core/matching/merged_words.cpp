@@ -35,12 +35,12 @@ float fromBfloat16(std::uint16_t half) {
 
 }  // namespace
 
-MergedWords::MergedWords(const DescriptorMatrix& words, const std::vector<std::uint32_t>& order)
+MergedWords::MergedWords(const SearchedWords& words, const std::vector<std::uint32_t>& order)
     : merge_(learnBoundCascade(words, {mergedBins(words.cols())}).front()), rows_(order.size() * merge_.padded()) {
-  std::vector<float> merged(merge_.padded()), kept(merged.size());
+  std::vector<float> merged(merge_.padded()), kept(merged.size()), buffer;
   for (std::size_t slot = 0; slot < order.size(); ++slot) {
     if (order[slot] == WordClusters::no_word) continue;
-    merge_.apply(words.row(order[slot]), merged.data());
+    merge_.apply(words.row(order[slot], buffer), merged.data());
     std::uint16_t* row = &rows_[slot * merged.size()];
     for (std::size_t i = 0; i < merged.size(); ++i) {
       row[i] = toBfloat16(merged[i]);

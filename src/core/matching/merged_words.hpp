@@ -4,9 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <sks_detector/stages/descriptors.hpp>
-
 #include "core/matching/bound_cascade.hpp"
+#include "core/matching/searched_words.hpp"
 
 namespace sks {
 
@@ -15,7 +14,7 @@ class MergedWords {
 public:
   MergedWords() = default;
   /// @param order the word of each slot
-  MergedWords(const DescriptorMatrix& words, const std::vector<std::uint32_t>& order);
+  MergedWords(const SearchedWords& words, const std::vector<std::uint32_t>& order);
 
   void merge(const float* histogram, std::vector<float>& merged) const;
 

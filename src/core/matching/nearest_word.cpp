@@ -20,27 +20,11 @@ constexpr std::size_t least_visited = 24, most_visited = 80;  // clusters, about
 constexpr std::size_t least_kept = 160, most_kept = 256;      // of the words of clusters; a 256th of all in between
 constexpr std::size_t centers_sampled = 8;                    // every one of this many
 
-constexpr float largest_bin = 1e4f;  // descriptors have the length 1; sums over far larger bins would not be finite
-
-void checkHistograms(const DescriptorMatrix& words) {
-  for (std::size_t i = 0; i < words.rows() * words.cols(); ++i) {
-    if (words.data()[i] >= 0 && words.data()[i] <= largest_bin) continue;
-    throw Error(ErrorCode::bad_data, "codeword " + std::to_string(i / words.cols()) + " is no histogram: bin " +
-                                         std::to_string(i % words.cols()) + " is " + std::to_string(words.data()[i]));
-  }
-}
-
 constexpr float nothing = std::numeric_limits<float>::infinity();
 
 /// The largest distance of a word of the group that may be wanted.
 float limitOf(const NearestWord::Search& search, std::uint32_t group) {
   return std::min(search.best_of_group[group], search.factor * search.best) * (1 + rounding);
-}
-
-/// Words are read from memory, one after the other in no order that the processor could foresee.
-void prefetch(const float* word, std::size_t size) {
-  constexpr std::size_t line = 64 / sizeof(float);
-  for (std::size_t i = 0; i < size; i += line) __builtin_prefetch(word + i);
 }
 
 /// Makes of a query's lower bounds estimates, which rank words better: what the axes leave over of two histograms
@@ -54,10 +38,10 @@ void estimate(WordCodes::CodedQuery& query) {
 
 }  // namespace
 
-NearestWord::NearestWord(DescriptorMatrix words, bool exact, const std::vector<std::uint32_t>& group_of_word,
+NearestWord::NearestWord(SearchedWords words, bool exact, const std::vector<std::uint32_t>& group_of_word,
                          std::size_t groups)
     : words_(std::move(words)), groups_(groups) {
-  checkHistograms(words_);
+  words_.checkHistograms();
   if (words_.rows() == 0) return;
   codes_ = WordCodes(words_);
   const std::vector<CodedVector> codes = codes_.encode(words_);
@@ -79,8 +63,8 @@ NearestWord::NearestWord(DescriptorMatrix words, bool exact, const std::vector<s
   }
 }
 
-const float* NearestWord::wordAt(std::uint32_t slot) const {
-  return words_.row(clusters_.order()[slot]);
+const float* NearestWord::wordAt(std::uint32_t slot, std::vector<float>& buffer) const {
+  return words_.row(clusters_.order()[slot], buffer);
 }
 
 /// A distance that was measured may be the best one so far.
@@ -91,11 +75,11 @@ void NearestWord::remember(Search& search, std::uint32_t slot, float distance) c
 }
 
 /// The word of the lowest bound is likely to be near: its distance rules most others out.
-void NearestWord::measureLikely(Search& search, std::uint32_t slot, float bound) const {
+void NearestWord::measureLikely(Search& search, std::uint32_t slot, float bound, Workspace& work) const {
   float& lowest = search.lowest_of_group[groupOf(slot)];
   if (!(bound < lowest)) return;
   lowest = bound;
-  remember(search, slot, chiSquaredFast(search.histogram, wordAt(slot), words_.cols()));
+  remember(search, slot, chiSquaredFast(search.histogram, wordAt(slot, work.words[0]), words_.cols()));
 }
 
 /// Measures the likely word of each group where it may be near enough, the nearest one first.
@@ -110,7 +94,7 @@ void NearestWord::measureLikelyOfGroups(Search& search, Workspace& work) const {
   std::sort(likely.begin(), likely.end());
   for (const auto& [bound, slot] : likely) {
     if (bound > merged_.highestWithin(limitOf(search, groupOf(slot)))) break;
-    remember(search, slot, chiSquaredFast(search.histogram, wordAt(slot), words_.cols()));
+    remember(search, slot, chiSquaredFast(search.histogram, wordAt(slot, work.words[0]), words_.cols()));
   }
 }
 
@@ -142,7 +126,7 @@ void NearestWord::dropHopeless(Search& search, HighestWithin&& highest_within) c
 /// Distances in place of bounds, two at a time; `nothing` for words that those before them rule out.
 /// @param highest_within the highest bound of a word within a distance
 template <typename HighestWithin>
-void NearestWord::measurePromising(Search& search, HighestWithin&& highest_within) const {
+void NearestWord::measurePromising(Search& search, HighestWithin&& highest_within, Workspace& work) const {
   constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
   const std::size_t bins = words_.cols(), count = search.found.slots.size();
   const auto keep = [&](std::size_t i, float distance) {
@@ -152,20 +136,23 @@ void NearestWord::measurePromising(Search& search, HighestWithin&& highest_withi
   std::size_t waiting = none;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t slot = search.found.slots[i];
-    if (i + 1 < count) prefetch(wordAt(search.found.slots[i + 1]), bins);
+    if (i + 1 < count) words_.prefetch(clusters_.order()[search.found.slots[i + 1]]);
     if (search.found.bounds[i] > highest_within(limitOf(search, groupOf(slot)))) {
       search.found.bounds[i] = nothing;
     } else if (waiting == none) {
       waiting = i;
     } else {
       float distances[2];
-      chiSquaredOfTwo(search.histogram, wordAt(search.found.slots[waiting]), wordAt(slot), bins, distances);
+      chiSquaredOfTwo(search.histogram, wordAt(search.found.slots[waiting], work.words[0]), wordAt(slot, work.words[1]),
+                      bins, distances);
       keep(waiting, distances[0]);
       keep(i, distances[1]);
       waiting = none;
     }
   }
-  if (waiting != none) keep(waiting, chiSquaredFast(search.histogram, wordAt(search.found.slots[waiting]), bins));
+  if (waiting != none) {
+    keep(waiting, chiSquaredFast(search.histogram, wordAt(search.found.slots[waiting], work.words[0]), bins));
+  }
 }
 
 void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* const* searches, std::size_t count,
@@ -183,7 +170,7 @@ void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* con
     if (exact()) {
       const std::size_t likely = indexOfSmallest(bounds[q], words);
       if (bounds[q][likely] > limitOfTile(search, first_block) + search.query.slack) continue;
-      measureLikely(search, std::uint32_t(first_block * block_words + likely), bounds[q][likely]);
+      measureLikely(search, std::uint32_t(first_block * block_words + likely), bounds[q][likely], work);
     }
     const float highest = std::min(search.found.highest(), limitOfTile(search, first_block) + search.query.slack);
     const std::size_t kept = selectUpTo(highest, bounds[q], words, work.selected.data());
@@ -205,11 +192,11 @@ void NearestWord::finish(Search& search, Match* matches, Workspace& work) const 
   const auto highestWithin = [&](float distance) { return exact() ? merged_.highestWithin(distance) : distance; };
   measureLikelyOfGroups(search, work);
   dropHopeless(search, highestWithin);
-  measurePromising(search, highestWithin);
+  measurePromising(search, highestWithin, work);
   dropHopeless(search, [](float distance) { return distance; });
   work.nearest.assign(groups_, {std::numeric_limits<double>::infinity(), 0});
   const auto distanceOf = [&](std::uint32_t word) {
-    return chiSquared(search.histogram, words_.row(word), words_.cols());
+    return chiSquared(search.histogram, words_.row(word, work.words[0]), words_.cols());
   };
   for (std::size_t i = 0; i < search.found.slots.size(); ++i) {
     const std::uint32_t slot = search.found.slots[i], word = clusters_.order()[slot];

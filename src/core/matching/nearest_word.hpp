@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -9,6 +10,7 @@
 
 #include "core/matching/lowest_bounds.hpp"
 #include "core/matching/merged_words.hpp"
+#include "core/matching/searched_words.hpp"
 #include "core/matching/word_clusters.hpp"
 #include "core/matching/word_codes.hpp"
 
@@ -42,15 +44,16 @@ public:
     std::vector<float> centers;                             // distances of several queries to them
     std::vector<std::uint64_t> visits;                      // cluster and search, to be made in this order
     std::vector<std::pair<float, std::uint32_t>> likely;    // lowest bound and its slot, of each group
+    std::array<std::vector<float>, 2> words;                // bins of two words
     std::vector<std::pair<double, std::uint32_t>> nearest;  // distance and word of each group
   };
 
   /// @param group_of_word below `groups`; empty: all belong to one
   /// @throws Error(bad_data) naming word and bin for a value that is negative or not finite
-  NearestWord(DescriptorMatrix words, bool exact, const std::vector<std::uint32_t>& group_of_word = {},
+  NearestWord(SearchedWords words, bool exact, const std::vector<std::uint32_t>& group_of_word = {},
               std::size_t groups = 1);
 
-  const DescriptorMatrix& words() const { return words_; }
+  const SearchedWords& words() const { return words_; }
 
   /// Finds the nearest words of all queries; of equally near words the first. There must be words.
   /// @param factor at least 1; the nearest word of a group is found where it is within this factor of the distance of
@@ -64,15 +67,16 @@ public:
 private:
   bool exact() const { return clusters_.size() == 1; }
   std::uint32_t groupOf(std::uint32_t slot) const { return groups_ == 1 ? 0 : group_of_slot_[slot]; }
-  const float* wordAt(std::uint32_t slot) const;
+  /// Its bins, perhaps in the buffer.
+  const float* wordAt(std::uint32_t slot, std::vector<float>& buffer) const;
   void remember(Search& search, std::uint32_t slot, float distance) const;
-  void measureLikely(Search& search, std::uint32_t slot, float bound) const;
+  void measureLikely(Search& search, std::uint32_t slot, float bound, Workspace& work) const;
   void measureLikelyOfGroups(Search& search, Workspace& work) const;
   float limitOfTile(const Search& search, std::size_t first_block) const;
   template <typename HighestWithin>
   void dropHopeless(Search& search, HighestWithin&& highest_within) const;
   template <typename HighestWithin>
-  void measurePromising(Search& search, HighestWithin&& highest_within) const;
+  void measurePromising(Search& search, HighestWithin&& highest_within, Workspace& work) const;
   void find(const DescriptorMatrix& queries, std::size_t first, std::size_t count, float factor, const float* limits,
             Match* matches, Workspace& work) const;
   void start(Search& search, const float* histogram, float factor, float limit, Workspace& work) const;
@@ -85,7 +89,7 @@ private:
              Workspace& work) const;
   void finish(Search& search, Match* matches, Workspace& work) const;
 
-  DescriptorMatrix words_;
+  SearchedWords words_;
   WordCodes codes_;
   WordClusters clusters_;
   CodeTable table_;  // a code for each slot of the clusters

@@ -13,14 +13,14 @@ constexpr float code_rounding = 4e-6f;           // above that of sums in single
 
 }  // namespace
 
-WordCodes::WordCodes(const DescriptorMatrix& words)
-    : axes_(words, code_size), floor_(1e-3f * axes_.meanMass() + 1e-20f) {}
+WordCodes::WordCodes(const SearchedWords& words) : axes_(words, code_size), floor_(1e-3f * axes_.meanMass() + 1e-20f) {}
 
-std::vector<CodedVector> WordCodes::encode(const DescriptorMatrix& words) {
+std::vector<CodedVector> WordCodes::encode(const SearchedWords& words) {
   std::vector<CodedVector> codes(words.rows());
   HellingerAxes::Projection projection;
+  std::vector<float> buffer;
   for (std::size_t i = 0; i < words.rows(); ++i) {
-    axes_.project(words.row(i), projection);
+    axes_.project(words.row(i, buffer), projection);
     encode(projection, codes[i]);
     longest_ = std::max(longest_, std::sqrt(codes[i].squares));
     largest_mass_ = std::max(largest_mass_, projection.mass);

@@ -4,10 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <sks_detector/stages/descriptors.hpp>
-
 #include "core/matching/code_table.hpp"
 #include "core/matching/hellinger_axes.hpp"
+#include "core/matching/searched_words.hpp"
 
 namespace sks {
 
@@ -20,10 +19,10 @@ public:
   };
 
   WordCodes() = default;
-  explicit WordCodes(const DescriptorMatrix& words);
+  explicit WordCodes(const SearchedWords& words);
 
   /// Codes of all words; what is encoded as a query afterwards allows for their rounding.
-  std::vector<CodedVector> encode(const DescriptorMatrix& words);
+  std::vector<CodedVector> encode(const SearchedWords& words);
 
   /// Of the size that squared distances of words have.
   float usualDistance() const { return axes_.meanMass() + floor_; }

@@ -5,6 +5,7 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/descriptors/quantizer.hpp"
 #include "core/settings/nearest_name.hpp"
 #include "core/settings/shown_text.hpp"
 
@@ -33,16 +34,15 @@ std::shared_ptr<Codebook> withoutObject(const Codebook& codebook, const std::str
     rest->views.push_back(codebook.views[i]);
     if (rest->views.back().object > removed) --rest->views.back().object;
   }
-  std::vector<float> values;
+  Quantizer rows(codebook.descriptors.cols());
   for (std::size_t i = 0; i < codebook.words.size(); ++i) {
     Codeword word = codebook.words[i];
     if (codebook.views[word.view].object == removed) continue;
     word.view = new_index[word.view];
     rest->words.push_back(word);
-    const float* row = codebook.descriptors.row(i);
-    values.insert(values.end(), row, row + codebook.descriptors.cols());
+    rows.add(codebook.descriptors, i);
   }
-  rest->descriptors = DescriptorMatrix(std::move(values), codebook.descriptors.cols());
+  rest->descriptors = rows.release();
   return rest;
 }
 

@@ -2,7 +2,9 @@
 #include <sks_detector/detector.hpp>
 
 #include <algorithm>
+#include <future>
 #include <limits>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -54,6 +56,19 @@ std::vector<LargePlane> planesOf(const Surface& surface, const Settings& setting
   return verifiesPoses(settings) ? findLargePlanes(surface, threadCount(settings)) : std::vector<LargePlane>();
 }
 
+/// Calls a function that uses one thread while the calling thread does something else, or else when the result is asked
+/// for.
+template <typename Function>
+auto builtBeside(const Function& function, const Settings& settings) {
+  if (threadCount(settings) > 1) {
+    try {
+      return std::async(std::launch::async, function);
+    } catch (const std::system_error&) {  // no thread can be started: it takes longer
+    }
+  }
+  return std::async(std::launch::deferred, function);
+}
+
 }  // namespace
 
 Detector::Detector(std::shared_ptr<const Codebook> codebook) : Detector(codebook, codebook->settings) {}
@@ -66,12 +81,14 @@ Detector::Detector(Codebook codebook, const Settings& settings, const Stages& st
 Detector::Detector(std::shared_ptr<const Codebook> codebook, const Settings& settings, const Stages& stages)
     : codebook_(std::move(codebook)),
       settings_(settingsFor(*codebook_, settings)),
-      stages_(completed(stages, *codebook_)),
-      matcher_(std::make_shared<ObjectMatcher>(*codebook_)) {
+      stages_(completed(stages, *codebook_)) {
+  auto matcher = builtBeside([this] { return std::make_shared<const ObjectMatcher>(*codebook_); }, settings_);
   findBackground();
-  if (stages_.verifier) return;
-  surface_verifier_ = std::make_shared<SurfaceVerifier>(codebook_, threadCount(settings_));
-  hough_verifier_ = std::make_shared<HoughVerifier>(*codebook_);
+  if (!stages_.verifier) {
+    surface_verifier_ = std::make_shared<SurfaceVerifier>(codebook_, threadCount(settings_));
+    hough_verifier_ = std::make_shared<HoughVerifier>(*codebook_);
+  }
+  matcher_ = matcher.get();
 }
 
 Detector Detector::withSettings(const Settings& settings) const {

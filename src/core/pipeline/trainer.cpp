@@ -2,10 +2,13 @@
 #include <sks_detector/trainer.hpp>
 
 #include <algorithm>
-#include <cstdlib>
+#include <array>
+#include <exception>
 #include <memory>
-#include <new>
+#include <optional>
+#include <utility>
 
+#include "core/descriptors/quantizer.hpp"
 #include "core/descriptors/shot.hpp"
 #include "core/pipeline/default_stages.hpp"
 #include "core/pipeline/scene_description.hpp"
@@ -16,40 +19,7 @@ namespace sks {
 namespace {
 
 constexpr std::size_t longest_stage_name = 100;  // of a descriptor stage
-
-/// Numbers that grow in place: a vector would copy them from time to time, and hold them twice meanwhile. Large blocks
-/// are moved by the kernel, page by page.
-class GrowingValues {
-public:
-  void append(const float* values, std::size_t count) {
-    if (size_ + count > capacity_) reserve(std::max(size_ + count, capacity_ + capacity_ / 2));
-    std::copy_n(values, count, data_.get() + size_);
-    size_ += count;
-  }
-  float* at(std::size_t index) { return data_.get() + index; }
-  void shrinkTo(std::size_t size) { size_ = size; }
-  /// Leaves nothing here.
-  DescriptorMatrix release(std::size_t cols) {
-    if (size_ > 0) reserve(size_);
-    const std::shared_ptr<const float> owner(data_.release(), std::free);
-    return DescriptorMatrix(owner.get(), size_ / cols, cols, owner);
-  }
-
-private:
-  void reserve(std::size_t capacity) {
-    void* moved = std::realloc(data_.get(), capacity * sizeof(float));
-    if (moved == nullptr) throw std::bad_alloc();
-    static_cast<void>(data_.release());  // realloc() has freed it
-    data_.reset(static_cast<float*>(moved));
-    capacity_ = capacity;
-  }
-
-  struct Free {
-    void operator()(float* data) const { std::free(data); }
-  };
-  std::unique_ptr<float, Free> data_;
-  std::size_t size_ = 0, capacity_ = 0;
-};
+constexpr std::size_t views_of_thread = 8;       // of meshes that are prepared before their words are added
 
 std::shared_ptr<const DescriptorStage> trainedDescriptors(const Stages& stages, DescriptorType type) {
   if (!stages.descriptors) {
@@ -99,14 +69,30 @@ Eigen::Isometry3f motionOf(const TrainingView& view) {
   return view.T_model_source ? view.T_model_source->cast<float>() : Eigen::Isometry3f::Identity();
 }
 
-/// Codewords under construction. Descriptors start as CSHOT under `automatic`; from the first cloud without colour, or
-/// with the colours of a mesh, on they are SHOT, and what was there is cut down to its SHOT part.
+/// What a training cloud becomes.
+struct PreparedView {
+  std::string object;
+  TrainingView view;
+  Keypoints keypoints;
+  Descriptors descriptors;
+};
+
+/// The view, none where it shows too little, or why it cannot be used.
+struct Preparation {
+  std::optional<PreparedView> view;
+  std::exception_ptr failure;
+};
+
+/// Codewords under construction. Descriptors start as CSHOT under `automatic`, with their SHOT parts beside them; from
+/// the first cloud without colour, or with the colours of a mesh, on they are SHOT.
 class CodebookBuilder {
 public:
   CodebookBuilder(const Settings& settings, const std::string& name, const Stages& stages)
       : threads_(startableThreads(settings)),
         keypoints_(stages.keypoints ? stages.keypoints : std::make_shared<const ConfiguredKeypoints>()),
-        descriptors_(trainedDescriptors(stages, settings.descriptor.type)) {
+        descriptors_(trainedDescriptors(stages, settings.descriptor.type)),
+        rows_(descriptors_->size()),
+        shot_rows_(shot_size) {
     codebook_.name = name;
     codebook_.settings = settings;
     codebook_.descriptor_type = settings.descriptor.type;
@@ -120,26 +106,36 @@ public:
   }
 
   void add(const TrainingSample& sample) {
-    const Settings& settings = codebook_.settings;
-    const Orientation orientation = orientationOf(sample.kind);
     const Cloud loaded = sample.load();
-    if (showsTooLittle(sample, loaded, settings)) return;
-    const Cloud cloud = usablePoints(loaded, orientation, settings);
-    checkSize(boxOf(sample, cloud));
-    if (may_drop_color_ && (sample.rendered || !cloud.hasColor())) dropColor();
+    if (showsTooLittle(sample, loaded, codebook_.settings)) return;
+    if (may_drop_color_ && (sample.rendered || !loaded.hasColor())) dropColor();
+    add(prepared(sample, loaded));
+  }
 
-    const Surface surface = prepareSurface(cloud, settings.surface, orientation, threads_);
-    const Keypoints keypoints = keypoints_->detect(surface, settings);
-    const Descriptors descriptors = described(*descriptors_, surface, keypoints, settings);
-    if (descriptors.keypoints.empty() && !sample.rendered) {
-      throw Error(ErrorCode::bad_data, "none of its " + std::to_string(keypoints.size()) +
-                                           " keypoints has a descriptor; is surface.normal_radius (" +
-                                           getSetting(settings, "surface.normal_radius") +
-                                           " m) or descriptor.radius (" + getSetting(settings, "descriptor.radius") +
-                                           " m) below the spacing of the points?");
+  /// Prepares views of meshes, one in each thread: they are small, and as much work to render as to describe.
+  std::vector<Preparation> prepareRendered(const TrainingSample* samples, std::size_t count) {
+    if (may_drop_color_) dropColor();
+    std::vector<Preparation> preparations(count);
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads_)
+    for (std::size_t i = 0; i < count; ++i) {
+      try {
+        const Cloud loaded = samples[i].load();
+        if (!showsTooLittle(samples[i], loaded, codebook_.settings))
+          preparations[i].view = prepared(samples[i], loaded);
+      } catch (...) {
+        preparations[i].failure = std::current_exception();
+      }
     }
-    addView(sample, surface, cloud);
-    addWords(keypoints, descriptors, codebook_.views.back());
+    return preparations;
+  }
+
+  void add(Preparation preparation) {
+    if (preparation.failure) std::rethrow_exception(preparation.failure);
+    if (preparation.view) add(std::move(*preparation.view));
+  }
+
+  int threads() const {
+    return threads_;
   }
 
   bool knows(const std::string& object) const {
@@ -148,27 +144,39 @@ public:
 
   Codebook finish() {
     codebook_.settings.descriptor.type = codebook_.descriptor_type;
-    codebook_.descriptors = values_.release(descriptors_->size());
+    codebook_.descriptors = rows_.release();
     return std::move(codebook_);
   }
 
 private:
   void dropColor() {
-    for (std::size_t row = 0; row < codebook_.words.size(); ++row) {
-      std::copy_n(values_.at(row * cshot_size), shot_size, values_.at(row * shot_size));
-      normalize(values_.at(row * shot_size), shot_size);
-    }
-    values_.shrinkTo(codebook_.words.size() * shot_size);
+    rows_ = std::move(shot_rows_);
     codebook_.descriptor_type = DescriptorType::shot;
     descriptors_ = std::make_shared<const ShotDescriptors>(DescriptorType::shot);
     may_drop_color_ = false;
   }
 
-  void addView(const TrainingSample& sample, const Surface& surface, const Cloud& cloud) {
+  PreparedView prepared(const TrainingSample& sample, const Cloud& loaded) const {
+    const Settings& settings = codebook_.settings;
+    const Orientation orientation = orientationOf(sample.kind);
+    const Cloud cloud = usablePoints(loaded, orientation, settings);
+    checkSize(boxOf(sample, cloud));
+    const Surface surface = prepareSurface(cloud, settings.surface, orientation, threads_);
+    PreparedView result{sample.object, viewOf(sample, surface, cloud), keypoints_->detect(surface, settings), {}};
+    result.descriptors = described(*descriptors_, surface, result.keypoints, settings);
+    if (result.descriptors.keypoints.empty() && !sample.rendered) {
+      throw Error(ErrorCode::bad_data, "none of its " + std::to_string(result.keypoints.size()) +
+                                           " keypoints has a descriptor; is surface.normal_radius (" +
+                                           getSetting(settings, "surface.normal_radius") +
+                                           " m) or descriptor.radius (" + getSetting(settings, "descriptor.radius") +
+                                           " m) below the spacing of the points?");
+    }
+    return result;
+  }
+
+  /// But for its object.
+  TrainingView viewOf(const TrainingSample& sample, const Surface& surface, const Cloud& cloud) const {
     TrainingView view;
-    const auto known = std::find(codebook_.objects.begin(), codebook_.objects.end(), sample.object);
-    view.object = std::uint32_t(known - codebook_.objects.begin());
-    if (known == codebook_.objects.end()) codebook_.objects.push_back(sample.object);
     view.source = sample.source;
     view.frame = sample.frame;
     view.kind = sample.kind;
@@ -184,20 +192,33 @@ private:
       view.surface_normals.push_back(T.linear() * surface.normal(i));
       if (surface.hasColor()) view.surface_colors.push_back(surface.colorAt(i));
     }
-    codebook_.views.push_back(std::move(view));
+    return view;
   }
 
-  void addWords(const Keypoints& keypoints, const Descriptors& descriptors, const TrainingView& view) {
-    const Eigen::Isometry3f T = motionOf(view);
-    const DescriptorMatrix& rows = descriptors.values;
-    values_.append(rows.data(), rows.rows() * rows.cols());
-    for (std::size_t row = 0; row < rows.rows(); ++row) {
+  void add(PreparedView prepared) {
+    const auto known = std::find(codebook_.objects.begin(), codebook_.objects.end(), prepared.object);
+    prepared.view.object = std::uint32_t(known - codebook_.objects.begin());
+    if (known == codebook_.objects.end()) codebook_.objects.push_back(prepared.object);
+    const Eigen::Isometry3f T = motionOf(prepared.view);
+    const Descriptors& descriptors = prepared.descriptors;
+    for (std::size_t row = 0; row < descriptors.keypoints.size(); ++row) {
+      addDescriptor(descriptors.values.row(row));
       Codeword word;
-      word.view = std::uint32_t(codebook_.views.size() - 1);
-      word.position = T * keypoints.positions[descriptors.keypoints[row]];
+      word.view = std::uint32_t(codebook_.views.size());
+      word.position = T * prepared.keypoints.positions[descriptors.keypoints[row]];
       word.frame = descriptors.frames[row] * T.linear().transpose();
       codebook_.words.push_back(word);
     }
+    codebook_.views.push_back(std::move(prepared.view));
+  }
+
+  void addDescriptor(const float* bins) {
+    rows_.add(bins);
+    if (!may_drop_color_) return;
+    std::array<float, shot_size> shot;
+    std::copy_n(bins, shot_size, shot.begin());
+    normalize(shot.data(), shot_size);
+    shot_rows_.add(shot.data());
   }
 
   int threads_;
@@ -205,7 +226,7 @@ private:
   std::shared_ptr<const DescriptorStage> descriptors_;
   bool may_drop_color_ = false;
   Codebook codebook_;
-  GrowingValues values_;
+  Quantizer rows_, shot_rows_;  // the second while colour may be dropped
 };
 
 }  // namespace
@@ -217,10 +238,23 @@ Codebook train(const std::vector<TrainingSample>& samples, const Settings& setti
   if (!name.empty()) checkName(name, "the codebook's name");
   for (const TrainingSample& sample : samples) checkName(sample.object, "the object's name");
   CodebookBuilder builder(settings, name, stages);
+  const std::size_t most_at_once = views_of_thread * std::size_t(builder.threads());
+  std::vector<Preparation> rendered;  // from sample `first_rendered` on
+  std::size_t first_rendered = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     report(progress, {"training", samples[i].source, i, samples.size()});
     try {
-      builder.add(samples[i]);
+      if (!samples[i].rendered) {
+        builder.add(samples[i]);
+        continue;
+      }
+      if (i >= first_rendered + rendered.size()) {
+        first_rendered = i;
+        std::size_t end = i;
+        while (end < std::min(i + most_at_once, samples.size()) && samples[end].rendered) ++end;
+        rendered = builder.prepareRendered(&samples[i], end - i);
+      }
+      builder.add(std::move(rendered[i - first_rendered]));
     } catch (const Error& error) {
       throw Error(error.code(), samples[i].source + ": " + error.what());
     }

@@ -11,9 +11,6 @@
 namespace sks {
 namespace {
 
-constexpr float weight_radius = 0.02f;  // [m] the scale of the keypoints' local surfaces
-constexpr float color_weight = 0.5f;    // of varying colours beside varying normals
-
 /// One point of a stored surface in the scene.
 struct Placed {
   Eigen::Vector3f point, normal;
@@ -82,24 +79,6 @@ SceneView::SceneView(const Surface& scene, std::vector<LargePlane> large_planes,
       planes(std::move(large_planes)),
       color_tolerance(scene.hasColor() ? float(settings.verification.color_tolerance) : 0),
       rises(scene.size(), 0) {}
-
-SurfaceWeights::SurfaceWeights(const TrainingView& view) : shape(view.surface_points.size(), 0.0f) {
-  const PointGrid grid(view.surface_points, weight_radius);
-  std::vector<PointGrid::Run> runs;
-  for (std::size_t i = 0; i < shape.size(); ++i) {
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    int count = 0;
-    grid.forEachNeighbor(view.surface_points[i], weight_radius, runs, [&](std::uint32_t j, float) {
-      sum += view.surface_normals[grid.source[j]];
-      ++count;
-    });
-    if (count > 0) shape[i] = std::max(0.0f, 1 - sum.norm() / float(count));
-  }
-  const std::vector<float> variation = colorVariation(view, weight_radius);
-  for (std::size_t i = 0; i < shape.size(); ++i) {
-    shape_and_color.push_back(std::min(1.0f, shape[i] + color_weight * variation[i]));
-  }
-}
 
 PoseEvidence examinePose(const TrainingView& view, const SurfaceWeights& surface_weights, const SceneView& scene,
                          const Settings& settings, const Eigen::Isometry3d& T_scene_model, std::size_t most_points,

@@ -12,6 +12,7 @@
 #include <sks_detector/stages/surface.hpp>
 
 #include "core/verification/range_image.hpp"
+#include "core/verification/surface_weights.hpp"
 
 namespace sks {
 
@@ -43,15 +44,6 @@ struct SceneView {
 
   /// Of a scene point, as under the light of the models.
   Eigen::Vector3f colorAt(std::uint32_t point) const { return surface.colorAt(point) - color_shift; }
-};
-
-/// The weight of each point of a view's stored surface, in [0, 1]: flat parts fit many things.
-struct SurfaceWeights {
-  SurfaceWeights() = default;
-  explicit SurfaceWeights(const TrainingView& view);
-
-  std::vector<float> shape;            ///< how much the normals around it vary
-  std::vector<float> shape_and_color;  ///< ... and the colours
 };
 
 /// What the scene says to a view's stored surface in some pose. Areas are in m^2; weighted ones are multiplied with the

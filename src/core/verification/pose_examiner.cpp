@@ -48,15 +48,13 @@ double evidenceOf(const PoseEvidence& pose, double density) {
 }  // namespace
 
 VerifiedModels::VerifiedModels(std::shared_ptr<const Codebook> models, int threads)
-    : codebook(std::move(models)), surfaces(modelSurfaces(*codebook, threads)) {
+    : codebook(std::move(models)), surfaces(modelSurfaces(*codebook, threads)), weights(codebook->views) {
   const std::vector<TrainingView>& views = codebook->views;
-  weights.resize(views.size());
   rough.resize(views.size());
   std::vector<std::vector<RestingPose>> rests(views.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t v = 0; v < views.size(); ++v) {
-    weights[v] = SurfaceWeights(views[v]);
-    rough[v] = RoughSurface(views[v], weights[v]);
+    rough[v] = RoughSurface(views[v]);
     const std::vector<std::uint32_t>& together = surfaces[v]->views;
     if (together.size() > 1 && together.front() == v) rests[v] = restingPoses(*surfaces[v]);
   }

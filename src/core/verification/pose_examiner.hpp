@@ -36,7 +36,7 @@ struct VerifiedModels {
 
   std::shared_ptr<const Codebook> codebook;
   std::vector<std::shared_ptr<const ModelSurface>> surfaces;  ///< in the frame of each view
-  std::vector<SurfaceWeights> weights;                        ///< of the points of each view's stored surface
+  WeightsOfViews weights;                                     ///< of the points of each view's stored surface
   std::vector<RoughSurface> rough;                            ///< of each view, for a quick look
   std::vector<RestingModel> resting;                          ///< of the objects that are known from all sides
 };

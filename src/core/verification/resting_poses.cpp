@@ -35,30 +35,38 @@ std::vector<Eigen::Vector3f> evenDirections(int count) {
   return all;
 }
 
-using Columns = Eigen::Matrix3Xf;  // a point each
+using Rows = Eigen::Matrix<float, Eigen::Dynamic, 3>;  // a point each, axis by axis
 
-Columns columnsOf(const std::vector<Eigen::Vector3f>& points) {
-  return Eigen::Map<const Columns>(points.data()->data(), 3, Eigen::Index(points.size()));
+Rows rowsOf(const std::vector<Eigen::Vector3f>& points) {
+  return Eigen::Map<const Eigen::Matrix3Xf>(points.data()->data(), 3, Eigen::Index(points.size())).transpose();
 }
 
-Eigen::Vector3f farthest(const Columns& points, const Eigen::Vector3f& direction) {
-  Eigen::Index farthest = 0;
-  (direction.transpose() * points).maxCoeff(&farthest);
-  return points.col(farthest);
+/// How far points lie in a direction. @return a buffer of this thread
+const Eigen::VectorXf& heightsOf(const Rows& points, const Eigen::Vector3f& direction) {
+  thread_local Eigen::VectorXf heights;
+  heights = points.col(0) * direction.x() + points.col(1) * direction.y() + points.col(2) * direction.z();
+  return heights;
+}
+
+/// The first of the farthest. To look for it apart from its height takes less time: only then it is done in SIMD lanes.
+Eigen::Vector3f farthest(const Rows& points, const Eigen::Vector3f& direction) {
+  const Eigen::VectorXf& heights = heightsOf(points, direction);
+  const float* begin = heights.data();
+  return points.row(std::find(begin, begin + heights.size() - 1, heights.maxCoeff()) - begin);
 }
 
 /// The points that can touch a plane, or nearly all of them.
-Columns outermost(const Columns& points) {
+Rows outermost(const Rows& points) {
   std::vector<Eigen::Vector3f> all;
   for (const Eigen::Vector3f& direction : evenDirections(2 * falls)) {
     const Eigen::Vector3f p = farthest(points, direction);
     if (std::find(all.begin(), all.end(), p) == all.end()) all.push_back(p);
   }
-  return columnsOf(all);
+  return rowsOf(all);
 }
 
 /// Tips over the point that touches the plane, towards the centre, in ever smaller steps.
-Eigen::Vector3f fallen(Eigen::Vector3f down, const Columns& outer, const Eigen::Vector3f& center) {
+Eigen::Vector3f fallen(Eigen::Vector3f down, const Rows& outer, const Eigen::Vector3f& center) {
   const float shrink = std::pow(last_step / first_step, 1.0f / float(steps_of_fall));
   float step = first_step;
   for (int i = 0; i < steps_of_fall; ++i, step *= shrink) {
@@ -69,25 +77,25 @@ Eigen::Vector3f fallen(Eigen::Vector3f down, const Columns& outer, const Eigen::
 }
 
 /// The direction in which the touching parts of the surface face.
-Eigen::Vector3f settled(const Columns& points, const Columns& normals, const Eigen::Vector3f& down) {
-  const Eigen::RowVectorXf heights = down.transpose() * points;
+Eigen::Vector3f settled(const Rows& points, const Rows& normals, const Eigen::Vector3f& down) {
+  const Eigen::VectorXf& heights = heightsOf(points, down);
   const float floor = heights.maxCoeff();
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   for (Eigen::Index i = 0; i < heights.size(); ++i) {
-    if (heights[i] > floor - touching && down.dot(normals.col(i)) > touching_agreement) sum += normals.col(i);
+    if (heights[i] > floor - touching && normals.row(i).dot(down) > touching_agreement) sum += normals.row(i);
   }
   return sum.norm() > 0 ? Eigen::Vector3f(sum.normalized()) : down;
 }
 
 /// Whether the centre lies above the convex hull of what touches the plane: seen from below it, touching points lie in
 /// all directions.
-bool isSupported(const Columns& points, const Eigen::Vector3f& down, const Eigen::Vector3f& center) {
-  const Eigen::RowVectorXf heights = down.transpose() * points;
+bool isSupported(const Rows& points, const Eigen::Vector3f& down, const Eigen::Vector3f& center) {
+  const Eigen::VectorXf& heights = heightsOf(points, down);
   const float floor = heights.maxCoeff();
   const Eigen::Vector3f u = down.unitOrthogonal(), v = down.cross(u);
   std::vector<float> angles;
   for (Eigen::Index i = 0; i < heights.size(); ++i) {
-    const Eigen::Vector3f p = points.col(i) - center;
+    const Eigen::Vector3f p = points.row(i).transpose() - center;
     if (heights[i] > floor - touching) angles.push_back(std::atan2(v.dot(p), u.dot(p)));
   }
   std::sort(angles.begin(), angles.end());
@@ -147,9 +155,9 @@ BaseExtent baseExtent(const std::vector<Eigen::Vector3f>& points, const Eigen::V
 
 std::vector<RestingPose> restingPoses(const ModelSurface& model) {
   if (model.points.empty()) return {};
-  const Columns points = columnsOf(model.points), normals = columnsOf(model.normals);
-  const Eigen::Vector3f center = points.rowwise().mean();
-  const Columns outer = outermost(points);
+  const Rows points = rowsOf(model.points), normals = rowsOf(model.normals);
+  const Eigen::Vector3f center = points.colwise().mean();
+  const Rows outer = outermost(points);
   std::vector<std::pair<int, Eigen::Vector3f>> ends;  // how many falls end there, and the first of them
   for (const Eigen::Vector3f& direction : evenDirections(falls)) {
     const Eigen::Vector3f down = settled(points, normals, fallen(direction, outer, center));

@@ -97,12 +97,14 @@ std::size_t roughStride(const TrainingView& view) {
 
 }  // namespace
 
-RoughSurface::RoughSurface(const TrainingView& view, const SurfaceWeights& surface_weights) {
+RoughSurface::RoughSurface(const TrainingView& view) {
+  SurfaceWeigher weigher(view);
   const std::size_t stride = roughStride(view);
   sample.take(view, stride);
   for (std::size_t i = 0; i < view.surface_points.size(); i += stride) {
-    shape.push_back(surface_weights.shape[i]);
-    shape_and_color.push_back(surface_weights.shape_and_color[i]);
+    const SurfaceWeight weight = weigher.at(i);
+    shape.push_back(weight.shape);
+    shape_and_color.push_back(weight.shape_and_color);
     if (!view.surface_colors.empty()) colors.push_back(view.surface_colors[i]);
   }
 }

@@ -16,10 +16,10 @@ namespace sks {
 /// pose reads, side by side.
 struct RoughSurface {
   RoughSurface() = default;
-  RoughSurface(const TrainingView& view, const SurfaceWeights& surface_weights);
+  explicit RoughSurface(const TrainingView& view);
 
   SurfaceSample sample;
-  std::vector<float> shape, shape_and_color;  ///< as in SurfaceWeights
+  std::vector<float> shape, shape_and_color;  ///< as in SurfaceWeight
   std::vector<Eigen::Vector3f> colors;        ///< empty without colour
 };
 
