@@ -50,6 +50,16 @@ TEST_F(FileContentTest, DoesNotChangeWithTheFile) {
   EXPECT_EQ(contentOf(file), content);
 }
 
+TEST_F(FileContentTest, WholePagesAreGivenBackAndNothingBeside) {
+  const auto page = std::size_t(::sysconf(_SC_PAGESIZE));
+  write(std::string(5 * page, 'a'));
+  FileContent file(path_);
+  file.release(page / 2, 3 * page);
+  EXPECT_EQ(contentOf(file), std::string(page, 'a') + std::string(2 * page, '\0') + std::string(2 * page, 'a'));
+  file.release(10, 20);
+  EXPECT_EQ(contentOf(file).substr(0, page), std::string(page, 'a'));
+}
+
 TEST_F(FileContentTest, ReadsLittleOfAFileThatBeginsOtherwise) {
   write("codebook");
   EXPECT_EQ(contentOf(FileContent(path_, "code")), "codebook");

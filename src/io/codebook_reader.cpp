@@ -119,7 +119,7 @@ QuantizedDescriptors descriptorsOf(const std::shared_ptr<const FileContent>& fil
   return {section + levels, reinterpret_cast<const float*>(section), rows, columns, file};
 }
 
-std::shared_ptr<const Codebook> read(const std::shared_ptr<const FileContent>& file) {
+std::shared_ptr<const Codebook> read(const std::shared_ptr<FileContent>& file) {
   const CodebookHeader header = checkCodebookHeader(file->data(), file->size());
   flatbuffers::Verifier verifier(file->data() + header.metadata_offset, header.metadata_size);
   if (!format::VerifyCodebookBuffer(verifier)) badCodebook("its metadata is damaged; train it again");
@@ -146,6 +146,7 @@ std::shared_ptr<const Codebook> read(const std::shared_ptr<const FileContent>& f
   codebook->checksum.set(header.payload_checksum);
   const std::string fault = codebookFault(*codebook);
   if (!fault.empty()) badCodebook(fault + "; train it again");
+  file->release(header.metadata_offset, header.metadata_size);  // all of it was copied
   return codebook;
 }
 
@@ -154,7 +155,7 @@ std::shared_ptr<const Codebook> read(const std::shared_ptr<const FileContent>& f
 std::shared_ptr<const Codebook> readCodebook(const std::string& path) {
   try {
     const CodebookHeader model;
-    return read(std::make_shared<const FileContent>(path, std::string(model.magic, sizeof(model.magic))));
+    return read(std::make_shared<FileContent>(path, std::string(model.magic, sizeof(model.magic))));
   } catch (const Error& error) {
     throw Error(error.code(), "cannot read codebook '" + path + "': " + error.what());
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <sks_detector/error.hpp>
 
@@ -57,6 +58,12 @@ FileContent::FileContent(const std::string& path, const std::string& magic) {
     ::munmap(data_, reserved_);
     throw;
   }
+}
+
+void FileContent::release(std::size_t offset, std::size_t size) {
+  const auto page = std::size_t(::sysconf(_SC_PAGESIZE));
+  const std::size_t begin = (offset + page - 1) / page * page, end = (offset + size) / page * page;
+  if (begin < end) ::madvise(data_ + begin, end - begin, MADV_DONTNEED);
 }
 
 FileContent::~FileContent() {

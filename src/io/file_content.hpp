@@ -18,6 +18,9 @@ public:
   FileContent(const FileContent&) = delete;
   FileContent& operator=(const FileContent&) = delete;
 
+  /// Gives the memory of some bytes back to the system: pages that lie among them are zero from then on.
+  void release(std::size_t offset, std::size_t size);
+
   const std::uint8_t* data() const { return data_; }
   std::size_t size() const { return size_; }
 

@@ -11,7 +11,7 @@ namespace sks {
 
 /// Read-only matrix of histograms, one a row, in a quarter of the memory of floats; shares its storage. A bin is
 /// level^2 * scale of its row, with levels of 8 bits: square roots are rounded, since chi squared is nearly uniform in
-/// them. Of SHOT rounding changes the distance of two descriptors by about 0.001. Immutable and thread-safe.
+/// them. A SHOT descriptor moves by about 0.0001 of chi squared. Immutable and thread-safe.
 class QuantizedDescriptors {
 public:
   /// The largest bin that can be kept: sums over far larger ones would not be finite.
