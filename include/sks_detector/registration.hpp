@@ -12,6 +12,7 @@
 #include <sks_detector/progress.hpp>
 #include <sks_detector/settings.hpp>
 #include <sks_detector/stages/stages.hpp>
+#include <sks_detector/symmetry.hpp>
 #include <sks_detector/trainer.hpp>
 
 namespace sks {
@@ -48,7 +49,8 @@ struct RegisteredObject {
   std::vector<RegisteredView> views;
   bool on_plane = false;  ///< z of the model frame is along the normal of the supporting plane
   LoopErrors loops;
-  FusedModel model;  ///< empty if no views were tied
+  FusedModel model;                  ///< empty if no views were tied
+  std::optional<Symmetry> symmetry;  ///< of the model, about an axis through the centre of its box; none: not known
 
   std::size_t tied() const;
 };
@@ -60,7 +62,9 @@ struct ViewRegistration {
 
 /// Registers the captured views of each object (kind: view, neither rendered nor with a frame of their own) into one
 /// model frame. Nothing is guessed: views whose pose at least two others do not confirm, in all six directions, stay
-/// views of their own, each with the reason. Which objects: `training.register_views`.
+/// views of their own, each with the reason, and so do those that stood on known planes and fit as well when they are
+/// turned. Views of a body of revolution, in shape and colour, are tied by its axis: no turn is wrong. Which objects:
+/// `training.register_views`.
 ///
 /// The frame: where the supporting planes are known (TrainingSample::plane), z is their normal and x points to where
 /// the first view was taken from; else the axes are those of the first view's camera. That is the first one of those

@@ -131,6 +131,7 @@ RegisteredObject ObjectRegistrar::result() const {
   object.frame = views_->object + "#model";
   TiedViews tied = tieViews(views, views_->relations, views_->settings, views_->limits, LoopLimits(), views_->threads);
   object.loops = tied.loops;
+  object.symmetry = tied.symmetry;
   object.on_plane = tied.first && views[*tied.first].plane;
   object.model = fuseViews(views, tied.T_model_view, views_->settings);
   moveOrigin(object, tied.T_model_view, views_->settings.training.origin);

@@ -11,10 +11,21 @@ namespace {
 
 constexpr int completions = 2;  // rounds in which pairs are aligned anew from the common poses
 constexpr double majority = 2;  // weight of the relations that agree on a pose over that of others
-constexpr double slack = 1.5;   // of the limits of contradictions, for poses that are not optimised yet
-constexpr std::size_t compared_points = 800;
 
 }  // namespace
+
+Eigen::Isometry3d poseOfItsOwn(const CapturedView& view) {
+  if (!view.plane) return Eigen::Isometry3d::Identity();
+  const Eigen::Vector3d up = view.plane->normal(), foot = view.plane->projection(view.center);
+  const Eigen::Vector3d to_camera = view.surface.sensor_origin.cast<double>() - foot;
+  Eigen::Vector3d x = to_camera - up.dot(to_camera) * up;
+  if (x.norm() < 1e-6) x = up.unitOrthogonal();
+  x.normalize();
+  Eigen::Isometry3d T_view_model = Eigen::Isometry3d::Identity();
+  T_view_model.linear() << x, up.cross(x), up;
+  T_view_model.translation() = foot;
+  return T_view_model.inverse();
+}
 
 void ViewCluster::begin(const ViewLoop& loop) {
   first_ = std::min({loop.i, loop.j, loop.k});
@@ -29,7 +40,7 @@ void ViewCluster::grow() {
   for (std::size_t step = 0; step < poses_.size(); ++step) {  // each adds a view
     std::vector<PoseProposal> proposals;
     for (std::size_t view = 0; view < poses_.size(); ++view) {
-      if (!poses_[view] && !foreign_[view]) propose(view, proposals);
+      if (!poses_[view] && !foreign_[view] && !other_turns_[view]) propose(view, proposals);
     }
     std::stable_sort(proposals.begin(), proposals.end(), [](const PoseProposal& a, const PoseProposal& b) {
       return std::make_pair(a.edges >= fewest_edges, a.weight) > std::make_pair(b.edges >= fewest_edges, b.weight);
@@ -79,43 +90,15 @@ void ViewCluster::orient(std::size_t by, const std::optional<Eigen::Isometry3d>&
 }
 
 std::ptrdiff_t ViewCluster::contradiction(std::size_t view, const Eigen::Isometry3d& T_model_view) const {
-  double worst = slack;
-  std::ptrdiff_t worst_view = -1;
-  const std::vector<CapturedView>& views = table_.views();
-  for (std::size_t t = 0; t < poses_.size(); ++t) {
-    if (!poses_[t] || t == view) continue;
-    const std::size_t stride = std::max<std::size_t>(1, views[view].points.size() / compared_points);
-    const ViewAgreement agreement =
-        compareViews(views[view], views[t], poses_[t]->inverse() * T_model_view, settings_.verification, stride);
-    const double discolored = agreement.overlap() >= limits_.least_overlap ? 1 - agreement.color : 0;
-    const double against =
-        std::max(agreement.contradicted() / limits_.most_contradicted, discolored / (1 - limits_.least_color));
-    if (against <= worst) continue;
-    worst = against;
-    worst_view = std::ptrdiff_t(t);
-  }
-  return worst_view;
+  const ViewPlacement placement = placedAt(table_.views(), poses_, view, T_model_view, settings_, limits_);
+  return placement.against > placement_slack ? placement.opponent : -1;
 }
 
 void ViewCluster::toFrameOf(std::size_t view) {
-  const Eigen::Isometry3d T_model_old = initialPose(view) * poses_[view]->inverse();
+  const Eigen::Isometry3d T_model_old = poseOfItsOwn(table_.views()[view]) * poses_[view]->inverse();
   for (auto& pose : poses_) {
     if (pose) pose = T_model_old * *pose;
   }
-}
-
-Eigen::Isometry3d ViewCluster::initialPose(std::size_t view) const {
-  const CapturedView& first = table_.views()[view];
-  if (!first.plane) return Eigen::Isometry3d::Identity();
-  const Eigen::Vector3d up = first.plane->normal(), foot = first.plane->projection(first.center);
-  const Eigen::Vector3d to_camera = first.surface.sensor_origin.cast<double>() - foot;
-  Eigen::Vector3d x = to_camera - up.dot(to_camera) * up;
-  if (x.norm() < 1e-6) x = up.unitOrthogonal();
-  x.normalize();
-  Eigen::Isometry3d T_view_model = Eigen::Isometry3d::Identity();
-  T_view_model.linear() << x, up.cross(x), up;
-  T_view_model.translation() = foot;
-  return T_view_model.inverse();
 }
 
 void ViewCluster::propose(std::size_t view, std::vector<PoseProposal>& proposals) const {

@@ -14,10 +14,12 @@
 
 #include "core/registration/pose_graph.hpp"
 #include "core/registration/relation_table.hpp"
+#include "core/registration/view_placement.hpp"
 
 namespace sks {
 
 constexpr std::size_t fewest_edges = 2;  ///< of a tied view: what a single pair says is not believed
+constexpr double placement_slack = 1.5;  ///< of the limits of contradictions, for poses that are not optimised yet
 
 /// A pose of a view that is not tied yet, by relations to tied ones.
 struct PoseProposal {
@@ -26,6 +28,10 @@ struct PoseProposal {
   double weight = 0;      // of the relations that agree
   std::size_t edges = 0;  // how many
 };
+
+/// The pose of a view before anything is known of others: where its plane is known, z is the plane's normal, x points
+/// to the camera and the origin lies on the plane below the middle of what it shows; else that of its camera.
+Eigen::Isometry3d poseOfItsOwn(const CapturedView& view);
 
 /// Views that are tied to each other, beginning with one loop of three (docs/method.md, section 16). Refers to all that
 /// it is made of. Deterministic for any number of threads.
@@ -39,7 +45,8 @@ public:
         loops_(loops),
         threads_(threads),
         poses_(table.views().size()),
-        foreign_(table.views().size(), 0) {}
+        foreign_(table.views().size(), 0),
+        other_turns_(table.views().size()) {}
 
   /// Ties the three views of a loop.
   void begin(const ViewLoop& loop);
@@ -53,6 +60,9 @@ public:
 
   /// Aligns all pairs anew from the common poses, drops what does not fit, and optimises again.
   void complete();
+
+  /// Lets views go that fit the others as well at another turn about the normal of the plane, all planes being known.
+  void dropAmbiguous();
 
   /// Moves the model so that a view, which must be tied, gets a pose: where its plane is known, the turn of that about
   /// z. Without a pose: x points to where the view was taken from, or else the model has the frame of the view.
@@ -71,6 +81,8 @@ public:
   }
   bool isTied(std::size_t view) const { return bool(poses_[view]); }
   bool isForeign(std::size_t view) const { return foreign_[view] != 0; }
+  /// By how much a view that was let go could be turned and fit as well [rad]; none: it was not let go for that.
+  const std::optional<double>& otherTurn(std::size_t view) const { return other_turns_[view]; }
   bool holds(const ViewLoop& loop) const { return poses_[loop.i] && poses_[loop.j] && poses_[loop.k]; }
 
   LoopErrors loopErrors() const;
@@ -85,7 +97,6 @@ private:
   std::size_t confirmations(const PoseProposal& p) const;
   double headingOf(std::size_t view, const Eigen::Isometry3d& T_model_view) const;
   void toFrameOf(std::size_t view);
-  Eigen::Isometry3d initialPose(std::size_t view) const;
   std::vector<PoseEdge> agreeingEdges() const;
   void optimize() { solve(agreeingEdges()); }
   void solve(const std::vector<PoseEdge>& edges);
@@ -100,6 +111,7 @@ private:
   void dropLoose();
   void dropForeign();
   double foreignShare(std::size_t view) const;
+  std::optional<double> findOtherTurn(std::size_t view) const;
 
   const RelationTable& table_;
   const Settings& settings_;
@@ -110,6 +122,7 @@ private:
   std::vector<PoseEdge> edges_;  // after complete()
   std::vector<double> scores_;   // of the edges
   std::vector<char> foreign_;    // of each view: dropped for what it shows besides
+  std::vector<std::optional<double>> other_turns_;
   double weight_ = 0;
   std::size_t first_ = 0;
 };

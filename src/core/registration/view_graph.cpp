@@ -2,9 +2,11 @@
 #include "core/registration/view_graph.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
+#include "core/registration/body_of_revolution.hpp"
 #include "core/registration/view_cluster.hpp"
 
 namespace sks {
@@ -38,29 +40,8 @@ std::vector<ViewRelation> allowedRelations(const std::vector<ViewRelation>& foun
   return relations;
 }
 
-/// Why a view could not be tied, in words.
-std::string reasonOf(std::size_t view, const std::optional<ViewCluster>& tied, const RelationTable& table,
-                     const std::vector<ViewRelation>& relations) {
-  std::size_t related = 0, determined = 0;
-  for (const ViewRelation& relation : relations) {
-    if (relation.a != view && relation.b != view) continue;
-    ++related;
-    determined += relation.determined ? 1 : 0;
-  }
-  if (table.views().size() < 2) return "it is the only view";
-  if (table.views().size() == 2) return "two views alone cannot confirm each other: capture more";
-  if (related == 0) return "it fits no other view";
-  if (determined == 0) {
-    return "what it shares with other views looks the same from several sides: its turn cannot be told";
-  }
-  if (!tied) return "no three views confirm each other";
-  if (tied->isForeign(view)) return "it shows something besides the object that the other views do not";
-  std::vector<PoseProposal> proposals;
-  tied->propose(view, proposals);
-  if (proposals.empty()) return "no two views agree on its pose";
-  const std::ptrdiff_t against = tied->contradiction(view, proposals.front().T_model_view);
-  if (against >= 0) return "it contradicts what '" + table.views()[std::size_t(against)].source + "' saw";
-  return "no two views agree on its pose closely enough";
+bool allOnPlanes(const std::vector<CapturedView>& views) {
+  return std::all_of(views.begin(), views.end(), [](const CapturedView& view) { return bool(view.plane); });
 }
 
 /// How views are tied: all that stays the same, whichever of them are there.
@@ -80,10 +61,10 @@ public:
       : limits_(limitsFor(found, count, rules.widest)),
         relations_(allowedRelations(found, count, limits_)),
         table_(views, relations_) {
-    std::vector<ViewCluster> tried;
+    const bool upright = allOnPlanes(views);
     for (const ViewLoop& loop : closedLoops(table_, rules.loops)) {
-      if (tried.size() >= most_seeds) break;
-      if (std::any_of(tried.begin(), tried.end(), [&](const ViewCluster& cluster) { return cluster.holds(loop); }))
+      if (tried_.size() >= most_seeds) break;
+      if (std::any_of(tried_.begin(), tried_.end(), [&](const ViewCluster& cluster) { return cluster.holds(loop); }))
         continue;
       ViewCluster cluster(table_, rules.settings, limits_, rules.loops, rules.threads);
       cluster.begin(loop);
@@ -91,9 +72,10 @@ public:
         cluster.grow();
         cluster.complete();
       }
-      tried.push_back(cluster);
+      if (upright) cluster.dropAmbiguous();
+      tried_.push_back(cluster);
     }
-    for (const ViewCluster& cluster : tried) {
+    for (const ViewCluster& cluster : tried_) {
       const auto key = [](const ViewCluster& c) { return std::make_pair(c.size(), c.weight()); };
       if (cluster.size() > fewest_edges && (!tied_ || key(cluster) > key(*tied_))) tied_.emplace(cluster);
     }
@@ -105,13 +87,52 @@ public:
   const std::vector<ViewRelation>& relations() const { return relations_; }
   const std::optional<ViewCluster>& tied() const { return tied_; }  ///< none: nothing could be tied
   ViewCluster& cluster() { return *tied_; }
+  /// ViewCluster::otherTurn() of the largest cluster, or of any that was tried if nothing could be tied.
+  std::optional<double> otherTurn(std::size_t view) const {
+    if (tied_) return tied_->otherTurn(view);
+    for (const ViewCluster& cluster : tried_) {
+      if (cluster.otherTurn(view)) return cluster.otherTurn(view);
+    }
+    return std::nullopt;
+  }
 
 private:
   PairLimits limits_;
   std::vector<ViewRelation> relations_;
   RelationTable table_;
+  std::vector<ViewCluster> tried_;
   std::optional<ViewCluster> tied_;
 };
+
+/// Why a view could not be tied, in words.
+std::string reasonOf(std::size_t view, const LargestCluster& best) {
+  const std::optional<ViewCluster>& tied = best.tied();
+  const std::vector<CapturedView>& views = best.table().views();
+  std::size_t related = 0, determined = 0;
+  for (const ViewRelation& relation : best.relations()) {
+    if (relation.a != view && relation.b != view) continue;
+    ++related;
+    determined += relation.determined ? 1 : 0;
+  }
+  if (views.size() < 2) return "it is the only view";
+  if (views.size() == 2) return "two views alone cannot confirm each other: capture more";
+  if (related == 0) return "it fits no other view";
+  if (determined == 0) {
+    return "what it shares with other views looks the same from several sides: its turn cannot be told";
+  }
+  if (const std::optional<double> turn = best.otherTurn(view)) {
+    return "it fits the other views as well when it is turned by " +
+           std::to_string(std::lround(std::abs(*turn) * 180 / EIGEN_PI)) + " degrees";
+  }
+  if (!tied) return "no three views confirm each other";
+  if (tied->isForeign(view)) return "it shows something besides the object that the other views do not";
+  std::vector<PoseProposal> proposals;
+  tied->propose(view, proposals);
+  if (proposals.empty()) return "no two views agree on its pose";
+  const std::ptrdiff_t against = tied->contradiction(view, proposals.front().T_model_view);
+  if (against >= 0) return "it contradicts what '" + views[std::size_t(against)].source + "' saw";
+  return "no two views agree on its pose closely enough";
+}
 
 /// Gives the model the frame that it had when views could be tied first, while there were only those before them: so
 /// the frame stays when views are added. It is that of the first view that was tied then; if that is no longer tied, it
@@ -133,18 +154,34 @@ void orient(ViewCluster& tied, const std::vector<CapturedView>& views, const std
   tied.orient(tied.firstTied());
 }
 
+/// Views of a body of revolution; none if it is no such body, or if it is not known how it stood.
+std::optional<TiedViews> tiedAsRevolved(const std::vector<CapturedView>& views, const Settings& settings,
+                                        const PairLimits& limits, int threads) {
+  if (!allOnPlanes(views)) return std::nullopt;
+  std::vector<Eigen::Isometry3d> upright;
+  for (const CapturedView& view : views) upright.push_back(poseOfItsOwn(view));
+  const std::optional<ViewPoses> poses = posesOfRevolution(views, upright, settings, limits, threads);
+  if (!poses) return std::nullopt;
+  TiedViews result;
+  result.T_model_view = *poses;
+  result.reasons.resize(views.size());
+  result.first = 0;
+  result.symmetry = Symmetry();
+  return result;
+}
+
 }  // namespace
 
 TiedViews tieViews(const std::vector<CapturedView>& views, const std::vector<ViewRelation>& found,
                    const Settings& settings, const PairLimits& limits, const LoopLimits& loops, int threads) {
+  if (std::optional<TiedViews> revolved = tiedAsRevolved(views, settings, limits, threads)) return *revolved;
   const Rules rules{settings, limits, loops, threads};
   LargestCluster best(views, found, views.size(), rules);
   TiedViews result;
   result.T_model_view.resize(views.size());
   result.reasons.resize(views.size());
   for (std::size_t v = 0; v < views.size(); ++v) {
-    if (!best.tied() || !best.tied()->isTied(v))
-      result.reasons[v] = reasonOf(v, best.tied(), best.table(), best.relations());
+    if (!best.tied() || !best.tied()->isTied(v)) result.reasons[v] = reasonOf(v, best);
   }
   if (best.tied()) {
     orient(best.cluster(), views, found, rules);

@@ -22,6 +22,7 @@ struct TiedViews {
   std::vector<std::string> reasons;  ///< why not, in words, other views by their `source`; empty for tied ones
   std::optional<std::size_t> first;  ///< a tied view that the frame was taken from; none: nothing was tied
   LoopErrors loops;
+  std::optional<Symmetry> symmetry;  ///< under which all views look the same: no turn under it is wrong
 };
 
 /// Ties views by their relative poses. A relative pose is believed only together with others that close a loop with it,
