@@ -12,6 +12,7 @@
 #include <sks_detector/progress.hpp>
 #include <sks_detector/settings.hpp>
 #include <sks_detector/stages/stages.hpp>
+#include <sks_detector/symmetry.hpp>
 #include <sks_detector/trainer.hpp>
 
 namespace sks {
@@ -48,7 +49,8 @@ struct RegisteredObject {
   std::vector<RegisteredView> views;
   bool on_plane = false;  ///< z of the model frame is along the normal of the supporting plane
   LoopErrors loops;
-  FusedModel model;  ///< empty if no views were tied
+  FusedModel model;                  ///< empty if no views were tied
+  std::optional<Symmetry> symmetry;  ///< of the model, about an axis through the centre of its box; none: not known
 
   std::size_t tied() const;
 };

@@ -5,13 +5,9 @@
 
 #include <Eigen/Geometry>
 
-namespace sks {
+#include <sks_detector/symmetry.hpp>
 
-/// An object that looks the same after a rotation about an axis through the centre of its box.
-struct Symmetry {
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< unit vector, model frame
-  int order = 0;                                    ///< rotations by 360 / order degrees; 0: any rotation
-};
+namespace sks {
 
 /// Every motion after which an object looks the same, in the model frame, as the BOP challenge lists them.
 struct ObjectSymmetries {
