@@ -69,7 +69,7 @@ struct FusedModel {
   Eigen::AlignedBox3f box;               ///< of the whole object; down to the supporting plane where that is known
 };
 
-/// The whole surface of an object whose captured views were registered, for display, planning and verification.
+/// The whole surface of an object whose captured views were registered, for display and planning.
 struct RegisteredModel {
   std::uint32_t object = 0;          ///< index into Codebook::objects
   std::string frame;                 ///< its model frame: TrainingView::frame of the views that it was made of
