@@ -35,6 +35,14 @@ Codebook toys() {
     values.insert(values.end(), shot_size, float(i));
   }
   codebook.descriptors = QuantizedDescriptors(DescriptorMatrix(std::move(values), shot_size));
+  for (std::uint32_t object = 0; object < 3; ++object) {
+    RegisteredModel model;
+    model.object = object;
+    model.frame = codebook.objects[object] + "#model";
+    model.surface.points = model.surface.normals = {Eigen::Vector3f::UnitX()};
+    model.surface.box.extend(Eigen::Vector3f::UnitX());
+    codebook.models.push_back(model);
+  }
   codebook.checksum.set(5);
   return codebook;
 }
@@ -54,6 +62,8 @@ TEST(WithoutObject, KeepsAllOfTheOthers) {
     EXPECT_EQ(rest->views[rest->words[i].view].source, std::to_string(kept[i]));
     EXPECT_EQ(rest->objectOf(rest->words[i]), kept[i] % 3 == 0 ? "mario" : "duck");
   }
+  ASSERT_EQ(rest->models.size(), 2u);
+  for (const RegisteredModel& model : rest->models) EXPECT_EQ(model.frame, rest->objects[model.object] + "#model");
   EXPECT_EQ(codebookFault(*rest), "");
   EXPECT_FALSE(rest->checksum.get());
 }

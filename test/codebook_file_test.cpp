@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sks_detector/codebook_file.hpp>
 
+#include <cmath>
 #include <cstring>
 #include <future>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -52,6 +54,17 @@ sks::Codebook makeCodebook(sks::DescriptorType type = sks::DescriptorType::shot)
     }
     codebook.views.push_back(view);
   }
+  sks::RegisteredModel model;
+  model.object = 1;
+  model.frame = "frog#model";
+  model.surface.box = {-vector(), vector()};
+  for (int i = 0; i < 3; ++i) {
+    model.surface.points.push_back(vector());
+    model.surface.normals.push_back(vector().normalized());
+    model.surface.colors.push_back({std::uint8_t(i), 100, 255});
+  }
+  model.symmetry = sks::Symmetry{Eigen::Vector3d::UnitY(), 2};
+  codebook.models = {model};
   std::vector<float> values;
   for (std::uint32_t i = 0; i < 2; ++i) {
     sks::Codeword word;
@@ -135,6 +148,20 @@ TEST_F(CodebookFile, RoundTripKeepsEverything) {
       EXPECT_EQ(back->words[i].position, codebook.words[i].position);
       EXPECT_EQ(back->words[i].frame, codebook.words[i].frame);
     }
+    ASSERT_EQ(back->models.size(), 1u);
+    const sks::RegisteredModel &model = codebook.models[0], &model_back = back->models[0];
+    EXPECT_EQ(model_back.object, model.object);
+    EXPECT_EQ(model_back.frame, model.frame);
+    EXPECT_EQ(model_back.surface.box.min(), model.surface.box.min());
+    EXPECT_EQ(model_back.surface.box.max(), model.surface.box.max());
+    EXPECT_EQ(model_back.surface.points, model.surface.points);
+    EXPECT_EQ(model_back.surface.normals, model.surface.normals);
+    ASSERT_EQ(model_back.surface.colors.size(), 3u);
+    EXPECT_EQ(model_back.surface.colors[2].r, 2);
+    EXPECT_EQ(model_back.surface.colors[2].b, 255);
+    ASSERT_TRUE(model_back.symmetry);
+    EXPECT_EQ(model_back.symmetry->axis, Eigen::Vector3d::UnitY());
+    EXPECT_EQ(model_back.symmetry->order, 2);
     ASSERT_EQ(back->descriptors.rows(), codebook.descriptors.rows());
     ASSERT_EQ(back->descriptors.cols(), codebook.descriptors.cols());
     for (std::size_t row = 0; row < back->descriptors.rows(); ++row) {
@@ -143,6 +170,37 @@ TEST_F(CodebookFile, RoundTripKeepsEverything) {
                 0);
     }
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(back->descriptors.levels(0)) % 64, 0u);
+  }
+}
+
+TEST_F(CodebookFile, WithoutModelsNothingIsStoredOfThem) {
+  sks::Codebook codebook = makeCodebook();
+  codebook.models[0].symmetry.reset();
+  codebook.models[0].surface.colors.clear();
+  sks::writeCodebook(path_, codebook);
+  EXPECT_FALSE(sks::readCodebook(path_)->models[0].symmetry);
+  EXPECT_TRUE(sks::readCodebook(path_)->models[0].surface.colors.empty());
+  codebook.models.clear();
+  sks::writeCodebook(path_, codebook);
+  EXPECT_TRUE(sks::readCodebook(path_)->models.empty());
+}
+
+TEST_F(CodebookFile, ModelsThatAreNoneAreNamed) {
+  using Change = void (*)(sks::RegisteredModel&);
+  const std::pair<Change, const char*> faults[] = {
+      {[](sks::RegisteredModel& m) { m.object = 2; }, "belongs to an object that is not there"},
+      {[](sks::RegisteredModel& m) { m.surface.normals.pop_back(); }, "has not one normal for each of its points"},
+      {[](sks::RegisteredModel& m) { m.surface.colors.pop_back(); }, "has not one colour for each of its points"},
+      {[](sks::RegisteredModel& m) { m.surface.points[1].x() = std::nanf(""); }, "does not lie within 1000 km"},
+      {[](sks::RegisteredModel& m) { m.surface.normals[1] *= 2; }, "has a normal that is no unit vector"},
+      {[](sks::RegisteredModel& m) { m.surface.box.setEmpty(); }, "has a box that is not within 1000 km"},
+      {[](sks::RegisteredModel& m) { m.symmetry->order = -1; }, "has a symmetry that is none"},
+      {[](sks::RegisteredModel& m) { m.symmetry->axis *= 2; }, "has a symmetry that is none"},
+  };
+  for (const auto& [change, fault] : faults) {
+    sks::Codebook codebook = makeCodebook();
+    change(codebook.models[0]);
+    EXPECT_EQ(sks::codebookFault(codebook), std::string("its model 'frog#model' ") + fault);
   }
 }
 

@@ -117,6 +117,28 @@ TEST(SceneMatching, TheOrderOfEqualScoresDoesNotMatter) {
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
+/// The box of a model that was seen from all sides has another centre than that of the single view to which the ground
+/// truth refers: what is compared is one point of the object.
+TEST(SceneMatching, ComparesTheSamePointInARegisteredFrame) {
+  GroundTruth truth = objectAt("duck", 0);
+  truth.model_frame = "duck#model";
+  truth.T_scene_model = Eigen::Translation3d(0.07, 0, 1) * Eigen::AngleAxisd(2, Eigen::Vector3d::UnitY());
+  Detection detection = candidateAt("duck", 0.06, 0.9);
+  detection.view = "duck#model";
+  detection.T_scene_model = *truth.T_scene_model;
+  EXPECT_EQ(matchScene(sceneOf({truth}), {detection}, max_distance)[0].outcome, hit);
+  detection.T_scene_model = Eigen::Translation3d(0, 0.051, 0) * *truth.T_scene_model;
+  EXPECT_EQ(matchScene(sceneOf({truth}), {detection}, max_distance)[0].outcome, alarm);
+  // half a turn about the middle of the model puts that point elsewhere, wherever the box is
+  detection = candidateAt("duck", 0, 0.9);
+  detection.view = "duck#model";
+  detection.T_scene_model = *truth.T_scene_model * Eigen::AngleAxisd(EIGEN_PI, Eigen::Vector3d::UnitY());
+  EXPECT_EQ(matchScene(sceneOf({truth}), {detection}, max_distance)[0].outcome, alarm);
+  // a detection in another frame says where that point is by its box alone
+  detection.view = "duck7.pcd";
+  EXPECT_EQ(matchScene(sceneOf({truth}), {detection}, max_distance)[0].outcome, hit);
+}
+
 /// A duck whose true pose is known, and a detection with its pose turned by `degrees` about z through the box centre.
 struct PoseCase {
   GroundTruth truth = objectAt("duck", 0.1);

@@ -12,9 +12,11 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <sks_detector/cloud.hpp>
 #include <sks_detector/settings.hpp>
 #include <sks_detector/stages/quantized_descriptors.hpp>
 #include <sks_detector/stages/surface.hpp>
+#include <sks_detector/symmetry.hpp>
 
 namespace sks {
 
@@ -58,6 +60,23 @@ struct Codeword {
   Eigen::Matrix3f frame = Eigen::Matrix3f::Identity();  ///< local reference frame R_t; rows are the axes
 };
 
+/// What was seen of an object in all of its registered views: one point for each part of the surface, averaged over the
+/// views. In the model frame [m].
+struct FusedModel {
+  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3f> normals;  ///< unit, outwards
+  std::vector<Rgb> colors;               ///< empty without colour
+  Eigen::AlignedBox3f box;               ///< of the whole object; down to the supporting plane where that is known
+};
+
+/// The whole surface of an object whose captured views were registered, for display and planning.
+struct RegisteredModel {
+  std::uint32_t object = 0;          ///< index into Codebook::objects
+  std::string frame;                 ///< its model frame: TrainingView::frame of the views that it was made of
+  FusedModel surface;                ///< about one point for each cube of `training.surface_resolution`
+  std::optional<Symmetry> symmetry;  ///< as in RegisteredObject
+};
+
 /// What the checksum of a codebook is, once it is known: see codebookChecksum(). A copy may be changed: it does not
 /// know it. Thread-safe.
 class RememberedChecksum {
@@ -95,14 +114,17 @@ struct Codebook {
   std::vector<std::string> objects;                       ///< names, in order of their first training cloud
   std::vector<TrainingView> views;
   std::vector<Codeword> words;
-  QuantizedDescriptors descriptors;  ///< words.size() rows
-  RememberedChecksum checksum;       ///< for codebookChecksum()
+  QuantizedDescriptors descriptors;     ///< words.size() rows
+  std::vector<RegisteredModel> models;  ///< of objects whose captured views were registered
+  RememberedChecksum checksum;          ///< for codebookChecksum()
 
   const std::string& objectOf(const Codeword& word) const { return objects[views[word.view].object]; }
   /// "shot", "cshot" or the name of the user's DescriptorStage.
   std::string descriptorName() const;
   /// Values of one descriptor.
   std::size_t descriptorSize() const;
+  /// The model in whose frame the poses of a view are; null if it has none.
+  const RegisteredModel* modelOf(const TrainingView& view) const;
   /// Of any view along an axis of its box [m].
   float largestExtent() const;
 };

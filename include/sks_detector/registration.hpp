@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <sks_detector/codebook.hpp>
 #include <sks_detector/progress.hpp>
 #include <sks_detector/settings.hpp>
 #include <sks_detector/stages/stages.hpp>
@@ -16,15 +17,6 @@
 #include <sks_detector/trainer.hpp>
 
 namespace sks {
-
-/// What was seen of an object in all of its registered views: one point for each part of the surface, averaged over the
-/// views. In the model frame [m].
-struct FusedModel {
-  std::vector<Eigen::Vector3f> points;
-  std::vector<Eigen::Vector3f> normals;  ///< unit, outwards
-  std::vector<Rgb> colors;               ///< empty without colour
-  Eigen::AlignedBox3f box;               ///< of the whole object; down to the supporting plane where that is known
-};
 
 /// How exactly the relative poses of registered views close loops of three.
 struct LoopErrors {
@@ -107,7 +99,8 @@ private:
 /// What is to be said of views that could not be tied: one text for each object that has some.
 std::vector<std::string> registrationWarnings(const std::vector<RegisteredObject>& objects);
 
-/// A codebook, and the models of its objects where `training.register_views` is set.
+/// A codebook with the models of its objects, thinned, and how these came about, where `training.register_views` is
+/// set.
 struct RegisteredTraining {
   Codebook codebook;
   std::vector<RegisteredObject> objects;

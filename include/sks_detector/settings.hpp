@@ -16,7 +16,7 @@ enum class KeypointDetector { grid, iss };
 enum class SelectionRule { rank, threshold, histogram };
 enum class Hypotheses { verified, hough };
 enum class RegisterViews { automatic, on, off };
-enum class ModelOrigin { automatic, base, center };
+enum class ModelOrigin { automatic, base, center, first };
 
 /// Names of an enumeration's values, in their order.
 template <typename Enum>
@@ -43,7 +43,7 @@ struct EnumNames<RegisterViews> {
 };
 template <>
 struct EnumNames<ModelOrigin> {
-  static constexpr std::array<const char*, 3> value{"auto", "base", "center"};
+  static constexpr std::array<const char*, 4> value{"auto", "base", "center", "first"};
 };
 
 /// Closed range of a number.
@@ -347,7 +347,9 @@ struct TrainingSettings {
       "stores it; true: all; false: each view has its own frame, that of its camera");
     v(s.origin, "origin",
       "origin of the frame of registered views. base: below the middle of the object's box, on the plane that it stood "
-      "on; center: in the middle of its box; auto: base where the plane is known, else center");
+      "on; center: in the middle of its box; both follow the box while added views show more of the object. first: it "
+      "stays when views are added: below the middle of what the first view shows, or in its middle where no plane is "
+      "known. auto: base where the plane is known, else center");
   }
 };
 

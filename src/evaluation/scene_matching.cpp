@@ -9,6 +9,16 @@
 namespace sks {
 namespace {
 
+/// How far a detection puts the point whose position the ground truth states, the centre of the reference's box, from
+/// there. Where its pose is not in the model frame of the ground truth, its own box centre stands for that point.
+double distanceTo(const GroundTruth& truth, const Detection& detection) {
+  Eigen::Vector3d position = detection.position();
+  if (truth.T_scene_model && truth.model_frame == detection.view) {
+    position = detection.T_scene_model * (truth.T_scene_model->inverse() * truth.position);
+  }
+  return (truth.position - position).norm();
+}
+
 /// Index of the instance of the detection's object that is nearest to it, of those for which `usable` holds.
 template <typename Predicate>
 std::optional<std::size_t> nearestGroundTruth(const Scene& scene, const Detection& detection, Predicate usable) {
@@ -16,7 +26,7 @@ std::optional<std::size_t> nearestGroundTruth(const Scene& scene, const Detectio
   double nearest_distance = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (scene.objects[i].object != detection.object || !usable(i)) continue;
-    const double distance = (scene.objects[i].position - detection.position()).norm();
+    const double distance = distanceTo(scene.objects[i], detection);
     if (distance < nearest_distance) {
       nearest = i;
       nearest_distance = distance;
@@ -27,7 +37,7 @@ std::optional<std::size_t> nearestGroundTruth(const Scene& scene, const Detectio
 
 double distanceTo(const Scene& scene, std::optional<std::size_t> ground_truth, const Detection& detection) {
   if (!ground_truth) return std::numeric_limits<double>::infinity();
-  return (scene.objects[*ground_truth].position - detection.position()).norm();
+  return distanceTo(scene.objects[*ground_truth], detection);
 }
 
 /// Best first, in an order that depends on the detections alone.

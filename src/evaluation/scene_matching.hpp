@@ -36,9 +36,12 @@ struct MatchedDetection {
 
 /// The matching rule. Per object, detections in descending score each take the nearest ground truth of their object
 /// that is still free; within `max_distance` that makes a true positive, else a false positive (and it stays free).
-/// A detection of an object that is not in the scene is a false positive. Since better detections choose first, the
-/// outcome of those above a threshold does not depend on those below.
-/// @param max_distance between a detection's box centre and the position of the ground truth [m]
+/// The distance is that of the detection's box centre from the position of the ground truth. Where the ground truth is
+/// also known in the detection's model frame (registeredTruth()), it is that of the same point of the object: the
+/// centre of the reference's box, in the pose that was found. A detection of an object that is not in the scene is a
+/// false positive. Since better detections choose first, the outcome of those above a threshold does not depend on
+/// those below.
+/// @param max_distance [m]
 /// @return all detections, best first; equal scores by distance to the nearest ground truth of their object, then by
 ///         object and position, so that the order they come in does not matter
 std::vector<MatchedDetection> matchScene(const Scene& scene, const std::vector<Detection>& detections,

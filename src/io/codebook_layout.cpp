@@ -28,13 +28,18 @@ bool inside(std::uint64_t offset, std::uint64_t size, std::uint64_t file_size) {
 
 /// Whether numbers are finite and so far from overflow that what is computed of them is finite as well.
 template <typename Numbers>
-bool within(const Numbers& numbers, float largest) {
+bool within(const Numbers& numbers, typename Numbers::Scalar largest) {
   return (numbers.array().abs() <= largest).all();
 }
 
 constexpr float largest_length = 1e6f;     // [m]
 constexpr float largest_of_unit = 1.001f;  // of a unit vector's parts, with what rounding adds
 constexpr float largest_color = 10;        // of scaled CIELab, which stays within about 1
+constexpr int most_rotations = 1000;       // that look the same
+
+bool allWithin(const std::vector<Eigen::Vector3f>& vectors, float largest) {
+  return std::all_of(vectors.begin(), vectors.end(), [&](const auto& vector) { return within(vector, largest); });
+}
 
 std::string viewFault(const Codebook& codebook, const TrainingView& view) {
   if (view.object >= codebook.objects.size()) return "belongs to an object that is not there";
@@ -48,18 +53,39 @@ std::string viewFault(const Codebook& codebook, const TrainingView& view) {
     return "has a box that is not within 1000 km";
   }
   if ((view.box_min.array() > view.box_max.array()).any()) return "has a box of negative size";
-  const auto all_within = [](const std::vector<Eigen::Vector3f>& vectors, float largest) {
-    return std::all_of(vectors.begin(), vectors.end(), [&](const auto& vector) { return within(vector, largest); });
-  };
   if (view.T_model_source) {
     const Eigen::Matrix4f pose = view.T_model_source->matrix().cast<float>();
     if (!within(pose.topLeftCorner<3, 3>(), largest_of_unit) || !within(pose.col(3), largest_length)) {
       return "has a pose in its model that is none";
     }
   }
-  if (!all_within(view.surface_points, largest_length)) return "has a surface that is not within 1000 km";
-  if (!all_within(view.surface_normals, largest_of_unit)) return "has a surface normal that is no unit vector";
-  if (!all_within(view.surface_colors, largest_color)) return "has a surface colour that is none";
+  if (!allWithin(view.surface_points, largest_length)) return "has a surface that is not within 1000 km";
+  if (!allWithin(view.surface_normals, largest_of_unit)) return "has a surface normal that is no unit vector";
+  if (!allWithin(view.surface_colors, largest_color)) return "has a surface colour that is none";
+  return "";
+}
+
+std::string modelFault(const Codebook& codebook, const RegisteredModel& model) {
+  const FusedModel& surface = model.surface;
+  if (model.object >= codebook.objects.size()) return "belongs to an object that is not there";
+  if (model.frame.empty() || model.frame.size() > longest_frame)
+    return "has a frame without a name of at most 4096 bytes";
+  if (surface.points.empty() || surface.points.size() != surface.normals.size()) {
+    return "has not one normal for each of its points";
+  }
+  if (!surface.colors.empty() && surface.colors.size() != surface.points.size()) {
+    return "has not one colour for each of its points";
+  }
+  if (!within(surface.box.min(), largest_length) || !within(surface.box.max(), largest_length)) {
+    return "has a box that is not within 1000 km";
+  }
+  if (surface.box.isEmpty()) return "has a box of negative size";
+  if (!allWithin(surface.points, largest_length)) return "does not lie within 1000 km";
+  if (!allWithin(surface.normals, largest_of_unit)) return "has a normal that is no unit vector";
+  if (model.symmetry && (!within(model.symmetry->axis, double(largest_of_unit)) || model.symmetry->order < 0 ||
+                         model.symmetry->order > most_rotations)) {
+    return "has a symmetry that is none";
+  }
   return "";
 }
 
@@ -133,6 +159,10 @@ std::string codebookFault(const Codebook& codebook) {
   for (const TrainingView& view : codebook.views) {
     const std::string fault = viewFault(codebook, view);
     if (!fault.empty()) return "its training cloud '" + shown(view.source) + "' " + fault;
+  }
+  for (const RegisteredModel& model : codebook.models) {
+    const std::string fault = modelFault(codebook, model);
+    if (!fault.empty()) return "its model '" + shown(model.frame) + "' " + fault;
   }
   for (std::size_t i = 0; i < codebook.words.size(); ++i) {
     const Codeword& word = codebook.words[i];

@@ -57,6 +57,23 @@ TrainingView fromFormat(const format::View& from) {
   return view;
 }
 
+RegisteredModel fromFormat(const format::Model& from) {
+  RegisteredModel model;
+  model.object = from.object();
+  model.frame = from.frame()->str();
+  model.surface.box = {fromFormat(*from.box_min()), fromFormat(*from.box_max())};
+  model.surface.points = fromFormat(*from.points());
+  model.surface.normals = fromFormat(*from.normals());
+  if (from.symmetry_axis() != nullptr) {
+    model.symmetry = {fromFormat(*from.symmetry_axis()).cast<double>(), from.symmetry_order()};
+  }
+  if (from.colors() != nullptr) {
+    for (const format::Color* color : *from.colors())
+      model.surface.colors.push_back({color->r(), color->g(), color->b()});
+  }
+  return model;
+}
+
 Codeword fromFormat(const format::Word& from) {
   Codeword word;
   word.view = from.view();
@@ -79,7 +96,8 @@ Settings readSettings(const std::string& yaml) {
   return settings;
 }
 
-constexpr std::size_t least_view = 48;  // bytes that a view takes besides its texts and surface
+constexpr std::size_t least_view = 48;   // bytes that a view takes besides its texts and surface
+constexpr std::size_t least_model = 36;  // the same of a model
 
 /// FlatBuffers lets any number of entries refer to one text or vector: copied for each, they would fill the memory from
 /// a small file. What the writer leaves takes no more memory than it takes in the file.
@@ -91,6 +109,13 @@ bool takesWhatItStores(const format::Codebook& from, std::uint64_t stored) {
     const std::uint64_t colors = view->surface_colors() != nullptr ? view->surface_colors()->size() : 0;
     const std::uint64_t vectors = view->surface_points()->size() + view->surface_normals()->size() + colors;
     bytes += least_view + view->source()->size() + vectors * sizeof(format::Vec3);
+  }
+  if (from.models() != nullptr) {
+    for (const auto* model : *from.models()) {
+      const std::uint64_t colors = model->colors() != nullptr ? model->colors()->size() : 0;
+      bytes += least_model + model->frame()->size() + colors * sizeof(format::Color) +
+               (model->points()->size() + model->normals()->size()) * sizeof(format::Vec3);
+    }
   }
   return bytes <= stored;
 }
@@ -140,6 +165,9 @@ std::shared_ptr<const Codebook> read(const std::shared_ptr<FileContent>& file) {
   for (const auto* view : *from.views()) codebook->views.push_back(fromFormat(*view));
   codebook->words.reserve(from.words()->size());
   for (const auto* word : *from.words()) codebook->words.push_back(fromFormat(*word));
+  if (from.models() != nullptr) {
+    for (const auto* model : *from.models()) codebook->models.push_back(fromFormat(*model));
+  }
   codebook->descriptors = header.version < first_quantized_version
                               ? floatDescriptors(file, header, from.descriptor_size())
                               : descriptorsOf(file, header, codebook->words.size(), from.descriptor_size());

@@ -47,6 +47,22 @@ Offset<format::View> toFormat(flatbuffers::FlatBufferBuilder& builder, const Tra
                             normals, frame, colors, view.T_model_source ? &pose : nullptr);
 }
 
+Offset<format::Model> toFormat(flatbuffers::FlatBufferBuilder& builder, const RegisteredModel& model) {
+  const FusedModel& surface = model.surface;
+  std::vector<format::Color> levels;
+  for (const Rgb& color : surface.colors) levels.emplace_back(color.r, color.g, color.b);
+  const auto frame = builder.CreateSharedString(model.frame);
+  const auto points = toFormat(builder, surface.points);
+  const auto normals = toFormat(builder, surface.normals);
+  const auto colors =
+      levels.empty() ? Offset<flatbuffers::Vector<const format::Color*>>() : builder.CreateVectorOfStructs(levels);
+  const format::Vec3 low = toFormat(surface.box.min()), high = toFormat(surface.box.max());
+  const Symmetry symmetry = model.symmetry.value_or(Symmetry());
+  const format::Vec3 axis = toFormat(symmetry.axis.cast<float>());
+  return format::CreateModel(builder, model.object, frame, &low, &high, points, normals, colors,
+                             model.symmetry ? &axis : nullptr, model.symmetry ? symmetry.order : 0);
+}
+
 /// What the metadata will take at most, known before FlatBuffers' own limit ends the process.
 std::uint64_t metadataBound(const Codebook& codebook) {
   std::uint64_t bytes = 1 << 20;
@@ -54,6 +70,9 @@ std::uint64_t metadataBound(const Codebook& codebook) {
   for (const std::string& object : codebook.objects) bytes += object.size() + 32;
   for (const TrainingView& view : codebook.views) {
     bytes += 256 + view.source.size() + view.frame.size() + 3 * view.surface_points.size() * sizeof(format::Vec3);
+  }
+  for (const RegisteredModel& model : codebook.models) {
+    bytes += 256 + model.frame.size() + 3 * model.surface.points.size() * sizeof(format::Vec3);
   }
   return bytes;
 }
@@ -79,9 +98,13 @@ void build(flatbuffers::FlatBufferBuilder& builder, const Codebook& codebook) {
   }
   const auto view_vector = builder.CreateVector(views);
   const auto word_vector = builder.CreateVectorOfStructs(words);
+  std::vector<Offset<format::Model>> models;
+  for (const RegisteredModel& model : codebook.models) models.push_back(toFormat(builder, model));
+  const auto model_vector =
+      models.empty() ? Offset<flatbuffers::Vector<Offset<format::Model>>>() : builder.CreateVector(models);
   const auto columns = std::uint32_t(codebook.descriptorSize());
-  format::FinishCodebookBuffer(
-      builder, format::CreateCodebook(builder, name, type, columns, settings, objects, view_vector, word_vector));
+  format::FinishCodebookBuffer(builder, format::CreateCodebook(builder, name, type, columns, settings, objects,
+                                                               view_vector, word_vector, model_vector));
 }
 
 /// What stands in a codebook file, but for the descriptors.

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/detector.hpp>
+#include <sks_detector/error.hpp>
 
 #include "simulation/builtin_objects.hpp"
 #include "tools/codebook_summary.hpp"
 #include "tools/command.hpp"
 #include "tools/mesh_options.hpp"
 #include "tools/mesh_summary.hpp"
+#include "tools/model_export.hpp"
 
 namespace sks::tools {
 namespace {
@@ -16,6 +20,7 @@ namespace {
 struct InfoOptions {
   std::string codebook;  // or a mesh
   std::string scale;     // of a mesh
+  std::string models;    // folder
   JsonOption json;
 };
 
@@ -26,13 +31,34 @@ void runMeshInfo(const InfoOptions& options) {
   if (!options.json.onStdout()) print(meshText(options.codebook, loaded));
 }
 
+/// @return the files
+std::vector<std::string> exportModels(const std::string& folder, const Codebook& codebook) {
+  if (folder.empty()) return {};
+  std::vector<std::string> files;
+  std::vector<std::string> objects;
+  for (const RegisteredModel& model : codebook.models) objects.push_back(codebook.objects[model.object]);
+  prepareModelExport(folder, objects);
+  for (const RegisteredModel& model : codebook.models) {
+    const double spacing = codebook.settings.training.surface_resolution;
+    for (const std::string& file : exportModel(folder, codebook.objects[model.object], model.surface, spacing)) {
+      files.push_back(file);
+    }
+  }
+  if (files.empty())
+    warn("no model to export: the codebook holds none; registered views give one, see docs/training.md");
+  return files;
+}
+
 void runInfo(const InfoOptions& options) {
   if (isMeshName(options.codebook) || options.codebook.rfind("builtin:", 0) == 0) {
+    if (!options.models.empty()) throw Error(ErrorCode::bad_usage, "--export-models is for codebooks");
     runMeshInfo(options);
     return;
   }
   const auto codebook = readCodebook(options.codebook);
-  options.json.write(codebookJson(options.codebook, *codebook));
+  nlohmann::json json = codebookJson(options.codebook, *codebook);
+  json["models"] = exportModels(options.models, *codebook);
+  options.json.write(json);
   if (options.json.onStdout()) return;
   print(codebookTable(options.codebook, *codebook));
 }
@@ -55,6 +81,10 @@ void addInfo(CLI::App& app) {
       ->required()
       ->type_name("FILE");
   addMeshScale(*command, options->scale);
+  command
+      ->add_option("--export-models", options->models,
+                   "write the models that the codebook holds as PLY clouds (NAME.ply) and meshes (NAME_mesh.ply)")
+      ->type_name("DIR");
   options->json.add(*command);
   command->callback([options] { runInfo(*options); });
 }

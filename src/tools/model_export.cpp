@@ -70,19 +70,17 @@ void prepareModelExport(const std::string& folder, const std::vector<std::string
   makeFolder(folder);
 }
 
-std::vector<std::string> exportModels(const std::string& folder, const std::vector<RegisteredObject>& objects,
-                                      double spacing) {
+std::vector<std::string> exportModel(const std::string& folder, const std::string& object, const FusedModel& model,
+                                     double spacing) {
   std::vector<std::string> files;
+  if (model.points.empty()) return files;
   const auto write = [&](const std::string& name, const std::string& content) {
     files.push_back((std::filesystem::path(folder) / name).string());
     writeFileAtomically(files.back(), content);
   };
-  for (const RegisteredObject& object : objects) {
-    if (object.model.points.empty()) continue;
-    write(object.object + ".ply", ply(object.model, {}));
-    const FusedModel thin = thinned(object.model, spacing);
-    write(object.object + "_mesh.ply", ply(thin, greedyTriangles(thin.points, thin.normals, spacing)));
-  }
+  write(object + ".ply", ply(model, {}));
+  const FusedModel thin = thinned(model, spacing);
+  write(object + "_mesh.ply", ply(thin, greedyTriangles(thin.points, thin.normals, spacing)));
   return files;
 }
 

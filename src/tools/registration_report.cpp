@@ -2,24 +2,12 @@
 #include "tools/registration_report.hpp"
 
 #include "core/settings/number_format.hpp"
+#include "tools/detection_json.hpp"
 
 namespace sks::tools {
 namespace {
 
 constexpr double degrees = 180 / EIGEN_PI;  // of a radian
-
-nlohmann::json vectorJson(const Eigen::Vector3f& v) {
-  return {v.x(), v.y(), v.z()};
-}
-
-/// Row-major, as poses stand in data set files.
-nlohmann::json poseJson(const Eigen::Isometry3d& T) {
-  nlohmann::json numbers = nlohmann::json::array();
-  for (int row = 0; row < 4; ++row) {
-    for (int column = 0; column < 4; ++column) numbers.push_back(T(row, column));
-  }
-  return numbers;
-}
 
 nlohmann::json viewJson(const RegisteredView& view) {
   nlohmann::json json = {{"view", view.source}};
@@ -41,8 +29,8 @@ nlohmann::json registrationJson(const std::vector<RegisteredObject>& objects) {
                            {"tied", object.tied()},
                            {"on_plane", object.on_plane},
                            {"points", object.model.points.size()}};
-    json["box_min"] = object.model.box.isEmpty() ? nlohmann::json() : vectorJson(object.model.box.min());
-    json["box_max"] = object.model.box.isEmpty() ? nlohmann::json() : vectorJson(object.model.box.max());
+    json["box_min"] = object.model.box.isEmpty() ? nlohmann::json() : vectorJson(object.model.box.min().cast<double>());
+    json["box_max"] = object.model.box.isEmpty() ? nlohmann::json() : vectorJson(object.model.box.max().cast<double>());
     json["loops"] = {{"count", object.loops.loops},
                      {"median_mm", 1000 * object.loops.median_shift},
                      {"max_mm", 1000 * object.loops.largest_shift},

@@ -74,9 +74,14 @@ void run(const TrainOptions& options) {
   for (const std::string& warning : registrationWarnings(trained.objects)) warn(warning);
   for (const std::string& warning : trainingWarnings(codebook)) warn(warning);
   writeCodebook(options.output, codebook);
-  const std::vector<std::string> models =
-      options.models.empty() ? std::vector<std::string>()
-                             : exportModels(options.models, trained.objects, settings.training.surface_resolution);
+  std::vector<std::string> models;
+  for (const RegisteredObject& object : trained.objects) {
+    if (options.models.empty()) break;
+    for (const std::string& file :
+         exportModel(options.models, object.object, object.model, settings.training.surface_resolution)) {
+      models.push_back(file);
+    }
+  }
   if (!options.models.empty() && models.empty()) {
     warn("no model to export: no views were registered to each other, see training.register_views");
   }

@@ -64,6 +64,21 @@ TEST(ExportModels, WritesCloudAndMesh) {
   EXPECT_GT(loaded.mesh.triangles.size(), 1000u);
   EXPECT_TRUE(loaded.mesh.hasColor());
   EXPECT_LT((loaded.mesh.box().sizes() - builtinObject("duck").box().sizes()).norm(), 0.1f);
+
+  // The codebook holds the same model, thinned.
+  const test::CommandRun info =
+      runSks({"info", folder.path("a.sks"), "--export-models", folder.path("held"), "--json", "-"});
+  ASSERT_EQ(info.status, 0) << info.errors;
+  const auto held = nlohmann::json::parse(info.output);
+  EXPECT_EQ(held["models"].size(), 2u);
+  EXPECT_EQ(held["objects"][0]["model"]["frame"], "duck#model");
+  EXPECT_EQ(held["objects"][0]["model"]["box_max"], json["registration"][0]["box_max"]);
+  const Cloud thinned = readCloud(folder.path("held/duck.ply"));
+  EXPECT_EQ(thinned.size(), held["objects"][0]["model"]["points"]);
+  EXPECT_LT(thinned.size(), cloud.size() / 2);
+  EXPECT_GT(thinned.size(), 500u);
+  EXPECT_TRUE(thinned.hasColor());
+  EXPECT_GT(loadMesh(folder.path("held/duck_mesh.ply"), 1).mesh.triangles.size(), 1000u);
 }
 
 TEST(ExportModels, SaysWhereThereIsNone) {
@@ -74,6 +89,9 @@ TEST(ExportModels, SaysWhereThereIsNone) {
   EXPECT_EQ(run.status, 0);
   EXPECT_THAT(run.errors, HasSubstr("two views alone cannot confirm each other"));
   EXPECT_THAT(run.errors, HasSubstr("no model to export"));
+  const test::CommandRun info = runSks({"info", folder.path("a.sks"), "--export-models", folder.path("held")});
+  EXPECT_EQ(info.status, 0);
+  EXPECT_THAT(info.errors, HasSubstr("no model to export"));
 }
 
 }  // namespace

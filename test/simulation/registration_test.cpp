@@ -234,6 +234,7 @@ TEST_F(DuckModel, GivesDetectionsOneFrameAndBox) {
     EXPECT_EQ(view.frameName(), tied ? "duck#model" : duck.views[v].source);
     if (tied) {
       EXPECT_LT((view.center() - duck.model.box.center()).norm(), 1e-5);
+      EXPECT_LT((view.extent() - duck.model.box.sizes()).norm(), 1e-5);
     }
   }
   const test::TemporaryFolder folder;
@@ -242,6 +243,12 @@ TEST_F(DuckModel, GivesDetectionsOneFrameAndBox) {
   const std::size_t first = firstOf(duck).sample;
   ASSERT_TRUE(codebook->views[first].T_model_source);
   EXPECT_TRUE(codebook->views[first].T_model_source->isApprox(*firstOf(duck).T_model_view, 1e-5));
+  const RegisteredModel* model = codebook->modelOf(codebook->views[first]);
+  ASSERT_NE(model, nullptr);
+  EXPECT_GT(model->surface.points.size(), 1000u);
+  EXPECT_LT(model->surface.points.size(), duck.model.points.size() / 2);
+  EXPECT_EQ(model->surface.colors.size(), model->surface.points.size());
+  EXPECT_TRUE(model->surface.box.isApprox(duck.model.box));
 
   const Eigen::Isometry3d T_table_model =
       table().T_table_camera(degreesOf(duck)[first]) * firstOf(duck).T_model_view->inverse();
@@ -336,6 +343,25 @@ TEST(ViewRegistrationTest, LeavesTheFrameWhereItIsWhenViewsAreAdded) {
   ASSERT_GE(last.size(), 3u);
   expectSameAxesAndHeight(last);
   EXPECT_LT(last[0].translation().norm(), 0.002);
+}
+
+TEST(ViewRegistrationTest, LeavesTheOriginAtTheFirstView) {
+  const TableView duck("duck");
+  Settings settings;
+  settings.training.origin = ModelOrigin::first;
+  ObjectRegistrar registrar("duck", settings);
+  // With more views the first three are given up again.
+  for (const double degrees : {100.0, 125.0, 150.0, 175.0}) registrar.add(duck.capture(degrees));
+  const RegisteredObject few = registrar.result();
+  ASSERT_EQ(few.tied(), 4u);
+  EXPECT_NEAR(few.model.box.min().z(), 0, 1e-6);
+  const Eigen::Vector3f from_middle = few.model.box.center() - Eigen::Vector3f(0, 0, few.model.box.center().z());
+  EXPECT_LT(from_middle.norm(), 0.03f);  // one view shows about a half of it
+  for (const double degrees : {200.0, 225.0, 250.0, 275.0, 300.0, 325.0}) registrar.add(duck.capture(degrees));
+  const std::vector<Eigen::Isometry3d> changes = frameChanges(few, registrar.result());
+  ASSERT_FALSE(changes.empty());
+  expectSameAxesAndHeight(changes);
+  EXPECT_LT(changes[0].translation().norm(), 0.001);
 }
 
 TEST(ViewRegistrationTest, LeavesTheFrameWhereItIsWhenAnEarlierViewIsTied) {

@@ -34,6 +34,11 @@ std::shared_ptr<Codebook> withoutObject(const Codebook& codebook, const std::str
     rest->views.push_back(codebook.views[i]);
     if (rest->views.back().object > removed) --rest->views.back().object;
   }
+  for (const RegisteredModel& model : codebook.models) {
+    if (model.object == removed) continue;
+    rest->models.push_back(model);
+    if (rest->models.back().object > removed) --rest->models.back().object;
+  }
   Quantizer rows(codebook.descriptors.cols());
   for (std::size_t i = 0; i < codebook.words.size(); ++i) {
     Codeword word = codebook.words[i];

@@ -22,12 +22,12 @@ namespace {
 constexpr double same_direction = 0.14, same_overlap = 0.8;
 
 /// Moves the origin of the model to where the settings want it.
-void moveOrigin(RegisteredObject& object, std::vector<std::optional<Eigen::Isometry3d>>& poses, ModelOrigin wanted) {
+void moveOrigin(RegisteredObject& object, TiedViews& tied, ModelOrigin wanted) {
   if (object.model.box.isEmpty()) return;
-  const bool base = object.on_plane && wanted != ModelOrigin::center;
   Eigen::Vector3f origin = object.model.box.center();
-  if (base) origin.z() = 0;
-  for (auto& pose : poses) {
+  if (wanted == ModelOrigin::first) origin = tied.first_middle.cast<float>();
+  if (object.on_plane && wanted != ModelOrigin::center) origin.z() = 0;
+  for (auto& pose : tied.T_model_view) {
     if (pose) pose->pretranslate(-origin.cast<double>());
   }
   for (Eigen::Vector3f& p : object.model.points) p -= origin;
@@ -134,7 +134,7 @@ RegisteredObject ObjectRegistrar::result() const {
   object.symmetry = tied.symmetry;
   object.on_plane = tied.first && views[*tied.first].plane;
   object.model = fuseViews(views, tied.T_model_view, views_->settings);
-  moveOrigin(object, tied.T_model_view, views_->settings.training.origin);
+  moveOrigin(object, tied, views_->settings.training.origin);
   for (std::size_t v = 0; v < views.size(); ++v) {
     RegisteredView view;
     view.sample = v;

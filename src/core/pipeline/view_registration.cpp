@@ -2,7 +2,10 @@
 #include <sks_detector/registration.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
+
+#include "core/registration/model_fusion.hpp"
 
 namespace sks {
 namespace {
@@ -51,6 +54,18 @@ void registerObject(RegisteredObject& object, const std::vector<TrainingSample>&
   for (RegisteredView& view : object.views) view.sample = indices[view.sample];
 }
 
+/// Puts the models of the objects into the codebook, which knows all of them.
+void addModels(RegisteredTraining& trained) {
+  Codebook& codebook = trained.codebook;
+  for (const RegisteredObject& object : trained.objects) {
+    if (object.model.points.empty()) continue;
+    const auto known = std::find(codebook.objects.begin(), codebook.objects.end(), object.object);
+    codebook.models.push_back({std::uint32_t(known - codebook.objects.begin()), object.frame,
+                               thinnedModel(object.model, codebook.settings.training.surface_resolution),
+                               object.symmetry});
+  }
+}
+
 }  // namespace
 
 ViewRegistration registerViews(const std::vector<TrainingSample>& samples, const Settings& settings,
@@ -82,7 +97,10 @@ RegisteredTraining trainRegistered(const std::vector<TrainingSample>& samples, c
     return {train(samples, settings, name, progress, stages), {}};
   }
   ViewRegistration registration = registerViews(samples, settings, progress, stages);
-  return {train(registration.samples, settings, name, progress, stages), std::move(registration.objects)};
+  RegisteredTraining trained{train(registration.samples, settings, name, progress, stages),
+                             std::move(registration.objects)};
+  addModels(trained);
+  return trained;
 }
 
 std::vector<std::string> registrationWarnings(const std::vector<RegisteredObject>& objects) {

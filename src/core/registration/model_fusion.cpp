@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <tuple>
 #include <utility>
 
 #include "core/surface/color_space.hpp"
+#include "core/surface/sided_cube.hpp"
 #include "core/verification/pose_evidence.hpp"
 
 namespace sks {
@@ -18,9 +20,9 @@ constexpr std::size_t fewest_contradictions = 2;  // one camera may have lost a 
 constexpr int fewest_around = 4;                  // within `neighborhood` cubes: fewer are stray points
 constexpr float neighborhood = 2.5f;              // [cubes]
 
-/// A point of a view in the model, and the cube in which it is averaged. Front and back of a thin part stay apart.
+/// A point of a view in the model, and the cube in which it is averaged.
 struct ModelPoint {
-  std::tuple<std::int32_t, std::int32_t, std::int32_t, int> cube;
+  SidedCube cube;
   std::uint32_t view = 0, point = 0;
 };
 
@@ -65,10 +67,7 @@ private:
       if (!poses_[v]) continue;
       const Eigen::Isometry3f T = poses_[v]->cast<float>();
       for (std::uint32_t i = 0; i < views_[v].points.size(); ++i) {
-        const Eigen::Vector3f cube = (T * views_[v].points.point(i) / edge_).array().floor();
-        const Eigen::Vector3f n = T.linear() * views_[v].normals[i];
-        const int side = (n.x() > 0 ? 4 : 0) + (n.y() > 0 ? 2 : 0) + (n.z() > 0 ? 1 : 0);
-        all_.push_back({{std::int32_t(cube.z()), std::int32_t(cube.y()), std::int32_t(cube.x()), side}, v, i});
+        all_.push_back({sidedCube(T * views_[v].points.point(i), T.linear() * views_[v].normals[i], edge_), v, i});
       }
     }
     std::sort(all_.begin(), all_.end(), [](const ModelPoint& a, const ModelPoint& b) {
@@ -146,6 +145,21 @@ private:
 FusedModel fuseViews(const std::vector<CapturedView>& views, const std::vector<std::optional<Eigen::Isometry3d>>& poses,
                      const Settings& settings) {
   return Fusion(views, poses, settings).fused();
+}
+
+FusedModel thinnedModel(const FusedModel& model, double spacing) {
+  std::map<SidedCube, std::size_t> first;  // point of each cube
+  for (std::size_t i = 0; i < model.points.size(); ++i) {
+    first.emplace(sidedCube(model.points[i], model.normals[i], float(spacing)), i);
+  }
+  FusedModel thinned;
+  thinned.box = model.box;
+  for (const auto& [cube, i] : first) {
+    thinned.points.push_back(model.points[i]);
+    thinned.normals.push_back(model.normals[i]);
+    if (!model.colors.empty()) thinned.colors.push_back(model.colors[i]);
+  }
+  return thinned;
 }
 
 }  // namespace sks

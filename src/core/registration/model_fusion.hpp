@@ -20,4 +20,7 @@ namespace sks {
 FusedModel fuseViews(const std::vector<CapturedView>& views, const std::vector<std::optional<Eigen::Isometry3d>>& poses,
                      const Settings& settings);
 
+/// About one point for each cube of the spacing [m] and side of a thin part, in order of the cubes; the same box.
+FusedModel thinnedModel(const FusedModel& model, double spacing);
+
 }  // namespace sks

@@ -134,24 +134,46 @@ std::string reasonOf(std::size_t view, const LargestCluster& best) {
   return "no two views agree on its pose closely enough";
 }
 
+/// The middle of the box of what a view shows, along the axes that the view alone would give a model; in its own
+/// frame [m].
+Eigen::Vector3d middleOf(const CapturedView& view) {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  if (view.plane) {
+    const Eigen::Vector3d up = view.plane->normal();
+    axes.col(2) = up;
+    axes.col(1) = up.cross(view.surface.sensor_origin.cast<double>() - view.center).normalized();
+    axes.col(0) = axes.col(1).cross(up);
+  }
+  Eigen::AlignedBox3d box;
+  for (std::size_t i = 0; i < view.surface.size(); ++i) {
+    box.extend(axes.transpose() * view.surface.point(i).cast<double>());
+  }
+  return axes * box.center();
+}
+
 /// Gives the model the frame that it had when views could be tied first, while there were only those before them: so
 /// the frame stays when views are added. It is that of the first view that was tied then; if that is no longer tied, it
-/// is handed over by a view that was tied together with it.
-void orient(ViewCluster& tied, const std::vector<CapturedView>& views, const std::vector<ViewRelation>& found,
-            const Rules& rules) {
+/// is handed over by a view that was tied together with it. @return TiedViews::first_middle
+Eigen::Vector3d orient(ViewCluster& tied, const std::vector<CapturedView>& views,
+                       const std::vector<ViewRelation>& found, const Rules& rules) {
   std::optional<std::size_t> first;
   for (std::size_t count = fewest_edges + 1; count < views.size(); ++count) {
     LargestCluster earlier(views, found, count, rules);
     if (!earlier.tied()) continue;
     if (!first) first = earlier.tied()->firstTied();
-    if (tied.isTied(*first)) return tied.orient(*first);
+    if (tied.isTied(*first)) break;
     if (!earlier.tied()->isTied(*first)) continue;
     earlier.cluster().orient(*first);
     for (std::size_t v = 0; v < count; ++v) {
-      if (earlier.tied()->isTied(v) && tied.isTied(v)) return tied.orient(v, earlier.tied()->poses()[v]);
+      if (!earlier.tied()->isTied(v) || !tied.isTied(v)) continue;
+      const auto& poses = earlier.tied()->poses();
+      tied.orient(v, poses[v]);
+      return *tied.poses()[v] * poses[v]->inverse() * *poses[*first] * middleOf(views[*first]);
     }
   }
-  tied.orient(tied.firstTied());
+  if (!first || !tied.isTied(*first)) first = tied.firstTied();
+  tied.orient(*first);
+  return *tied.poses()[*first] * middleOf(views[*first]);
 }
 
 /// Views of a body of revolution; none if it is no such body, or if it is not known how it stood.
@@ -166,6 +188,7 @@ std::optional<TiedViews> tiedAsRevolved(const std::vector<CapturedView>& views, 
   result.T_model_view = *poses;
   result.reasons.resize(views.size());
   result.first = 0;
+  result.first_middle = *(*poses)[0] * middleOf(views[0]);
   result.symmetry = Symmetry();
   return result;
 }
@@ -184,7 +207,7 @@ TiedViews tieViews(const std::vector<CapturedView>& views, const std::vector<Vie
     if (!best.tied() || !best.tied()->isTied(v)) result.reasons[v] = reasonOf(v, best);
   }
   if (best.tied()) {
-    orient(best.cluster(), views, found, rules);
+    result.first_middle = orient(best.cluster(), views, found, rules);
     result.T_model_view = best.tied()->poses();
     result.first = best.tied()->first();
     result.loops = best.tied()->loopErrors();

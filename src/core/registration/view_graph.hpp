@@ -21,6 +21,9 @@ struct TiedViews {
   std::vector<std::optional<Eigen::Isometry3d>> T_model_view;  ///< of each view; none: it could not be tied
   std::vector<std::string> reasons;  ///< why not, in words, other views by their `source`; empty for tied ones
   std::optional<std::size_t> first;  ///< a tied view that the frame was taken from; none: nothing was tied
+  /// The middle of the box of what that view shows, as it was when the frame began: views that are added later, even
+  /// if they leave that view out, do not move it. Model frame [m].
+  Eigen::Vector3d first_middle = Eigen::Vector3d::Zero();
   LoopErrors loops;
   std::optional<Symmetry> symmetry;  ///< under which all views look the same: no turn under it is wrong
 };

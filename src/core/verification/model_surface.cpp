@@ -2,34 +2,25 @@
 #include "core/verification/model_surface.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <map>
 #include <string>
-#include <tuple>
 #include <utility>
+
+#include "core/surface/sided_cube.hpp"
 
 namespace sks {
 namespace {
 
-/// Cube of a point and the side that it faces: front and back of a thin part stay apart.
-using Cube = std::tuple<std::int32_t, std::int32_t, std::int32_t, int>;
-
-Cube cubeOf(const Eigen::Vector3f& point, const Eigen::Vector3f& normal, float resolution) {
-  const Eigen::Vector3f cube = (point / resolution).array().floor();
-  const int side = (normal.x() > 0 ? 4 : 0) + (normal.y() > 0 ? 2 : 0) + (normal.z() > 0 ? 1 : 0);
-  return {std::int32_t(cube.x()), std::int32_t(cube.y()), std::int32_t(cube.z()), side};
-}
-
 ModelSurface merged(const Codebook& codebook, std::vector<std::uint32_t> views) {
   const float resolution = float(codebook.settings.training.surface_resolution);
-  std::vector<std::pair<Cube, std::pair<std::uint32_t, std::uint32_t>>> all;  // and which point of which view
+  std::vector<std::pair<SidedCube, std::pair<std::uint32_t, std::uint32_t>>> all;  // and which point of which view
   bool colored = true;
   for (const std::uint32_t v : views) {
     const TrainingView& view = codebook.views[v];
     colored = colored && !view.surface_colors.empty();
     for (std::uint32_t i = 0; i < view.surface_points.size(); ++i) {
-      all.push_back({cubeOf(view.surface_points[i], view.surface_normals[i], resolution), {v, i}});
+      all.push_back({sidedCube(view.surface_points[i], view.surface_normals[i], resolution), {v, i}});
     }
   }
   std::sort(all.begin(), all.end());
