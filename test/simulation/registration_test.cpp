@@ -397,5 +397,18 @@ TEST(ViewRegistrationTest, RegistersWithoutPlanesOnlyWhereAsked) {
   EXPECT_LT(turn, 2 * degree);
 }
 
+TEST(ViewRegistrationTest, LeavesAViewWithoutItsPlaneAlone) {
+  const TableView duck("duck");
+  std::vector<TrainingSample> samples = duck.captureAround(5, 0, 125);
+  samples[2].plane.reset();
+  const ViewRegistration registration = registerViews(samples, Settings());
+  const RegisteredObject& registered = registration.objects.at(0);
+  EXPECT_GE(registered.tied(), 3u);
+  EXPECT_FALSE(registered.views[2].T_model_view);
+  EXPECT_EQ(registered.views[2].reason, "the plane that it stood on is not known");
+  EXPECT_TRUE(registration.samples[2].frame.empty());
+  EXPECT_THAT(registrationWarnings({registered}), ElementsAre(HasSubstr("duck50: the plane that it stood on is not")));
+}
+
 }  // namespace
 }  // namespace sks
