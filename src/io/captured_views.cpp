@@ -20,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* heading =
-    "# Captured training views, one a line. Lines may be deleted while no detector runs; the clouds they name may be at "
-    "any time.\n";
+    "# Captured training views, one a line. Lines may be deleted while no detector runs; the clouds they name at any "
+    "time.\n";
 
 /// `000.pcd`, or the name after the last one: a number is not used again while a later file stands there.
 std::string nextName(const fs::path& folder) {

@@ -56,8 +56,8 @@ void TrainingServices::work(const Train::Request& request, const sks::Progress& 
   warnings = set.warnings;
   if (settings.training.register_views == sks::RegisterViews::automatic) {
     for (const std::string& object : set.without_planes) {
-      warnings.push_back("object '" + object + "': its captured views keep frames of their own, for none has the plane " +
-                         "that it stood on: capture them again, or set training.register_views to true");
+      warnings.push_back("object '" + object + "': its captured views keep frames of their own, for the plane that it" +
+                         " stood on is not known: capture them again, or set training.register_views to true");
     }
   }
   for (const std::string& warning : warnings) warn(warning);

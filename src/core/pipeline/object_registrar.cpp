@@ -55,7 +55,7 @@ struct ObjectRegistrar::Views {
     return view;
   }
 
-  /// Whether a view is not compared with the others: poses are sought with the help of the plane, unless all are wanted.
+  /// Whether a view is not compared with the others: without its plane only if all are to be registered.
   bool isApart(const CapturedView& view) const {
     return !view.plane && settings.training.register_views != RegisterViews::on;
   }
