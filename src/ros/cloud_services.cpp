@@ -37,7 +37,8 @@ StandingObject findObject(const sks::Cloud& cloud) {
                                            double(tabletop.plane.absDistance(cloud.sensor_origin)));
   if (count == 0) {
     throw Error(ErrorCode::bad_data,
-                "no object stands on " + plane + ": put the object on a free table, in view of the camera");
+                "no object stands on " + plane +
+                    ": put the object on a free table, away from its edges, in view of the camera");
   }
   throw Error(ErrorCode::bad_data,
               std::to_string(count) + " objects stand on " + plane + ": leave only the one that is to be captured");

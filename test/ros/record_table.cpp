@@ -51,7 +51,10 @@ void record(const json& picture, const CameraModel& camera, std::uint64_t number
   Renderer renderer;
   if (picture.value("table", true)) test::addTable(renderer);
   const Eigen::Translation3d lifted(0, 0, picture.value("lift", 0.0));
-  if (picture.value("arm", false)) test::addForearm(renderer, lifted * test::turnedBy(degrees));
+  if (picture.value("arm", false)) {
+    const Eigen::Translation3d to_object(0, -0.03, 0);  // the hand touches it
+    test::addForearm(renderer, lifted * test::turnedBy(degrees) * to_object);
+  }
   const Eigen::Isometry3d T_table_mesh = lifted * test::standingPose(*mesh);
   renderer.addInstance(renderer.addMesh(mesh), T_table_mesh);
   const Eigen::Vector3d target(0, 0, 0.5 * double(mesh->box().sizes().z()));

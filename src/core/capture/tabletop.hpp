@@ -32,8 +32,9 @@ struct Tabletop {
 };
 
 /// Tabletop segmentation: the largest plane (RANSAC on points thinned to an even density), and above the convex hull
-/// of what is seen of it clusters of points that reach down to it. Where nothing stands on the largest plane (a wall),
-/// others of at least a quarter of its area are tried. Deterministic.
+/// of what is seen of it clusters of points that reach down to it and do not go on beyond it. Where nothing stands on
+/// the largest plane (a wall), others of at least a quarter of its area are tried; curved surfaces are none.
+/// Deterministic.
 /// @param cloud in its camera's frame or with its sensor origin set; NaN points are skipped
 /// @throws Error(bad_data) if there is no plane
 Tabletop findTabletop(const Cloud& cloud, const TabletopSettings& settings = {});
