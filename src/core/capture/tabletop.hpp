@@ -13,7 +13,7 @@ namespace sks {
 /// What counts as a plane and as an object that stands on it.
 struct TabletopSettings {
   double plane_tolerance = 0.01;  ///< farthest that points of a plane lie from it [m]
-  double min_area = 0.02;         ///< smaller planes are none [m^2]
+  double min_area = 0.04;         ///< smaller planes are none [m^2]: a square of 0.2 m; arms show less
   double min_height = 0.005;      ///< what rises less is the plane's noise, and at least three standard deviations [m]
   double max_height = 0.5;        ///< what rises more is cut off [m]
   double max_extent = 0.6;        ///< what is wider is furniture or a wall, no object [m]
