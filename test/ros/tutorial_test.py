@@ -186,11 +186,11 @@ class TutorialTest(unittest.TestCase):
         self.assertIn("it shows the same as view 3", repeated.message)
 
     def test_what_does_not_stand_on_a_plane_is_refused(self):
-        above_table, without_table = (self.capture(picture, "toy") for picture in self.pictures["held"])
+        above_table, without_table = (self.capture(picture, "held") for picture in self.pictures["held"])
         for reply in (above_table, without_table):
             self.assertFalse(reply.success, reply.message)
             self.assertRegex(reply.message, "no object stands on the dominant plane|there is no plane in the cloud")
-        self.assertFalse(os.path.exists(os.path.join(self.folder, "datasets", "captured", "toy")))
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "datasets", "captured", "held")))
 
 
 if __name__ == "__main__":
