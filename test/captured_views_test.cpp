@@ -3,6 +3,9 @@
 
 #include <filesystem>
 #include <map>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -216,6 +219,56 @@ TEST_F(CapturedViewsTest, KeepThePlane) {
   ASSERT_TRUE(all.training[0].plane);
   EXPECT_TRUE(all.training[0].plane->coeffs().isApprox(plane.coeffs(), 1e-9));
   EXPECT_FALSE(all.training[1].plane);
+}
+
+/// Whoever deletes the line of a view deletes that view alone; also in files that were written in one line.
+TEST_F(CapturedViewsTest, AreListedOneALine) {
+  views_.add("tea pot", view(1), Eigen::Hyperplane<double, 3>(Eigen::Vector3d(0, -0.6, -0.8), 0.75));
+  views_.add("mug", view(2));
+  test::writeFile(path("dataset.yaml"),
+                  "{name: captured, units: m, training: [{object: tea pot, cloud: tea pot/000.pcd, kind: view, plane: "
+                  "[0, -0.6, -0.8, 0.75]}, {object: mug, cloud: mug/000.pcd, kind: view}], max_distance: 0.04}\n");
+  views_.add("mug", view(3));
+  views_.add("mug", view(4));
+  const auto linesWith = [&](const std::string& text) {
+    std::istringstream lines(readTextFile(path("dataset.yaml")));
+    std::vector<std::string> found;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find(text) != std::string::npos) found.push_back(line);
+    }
+    return found;
+  };
+  EXPECT_THAT(linesWith(".pcd"), SizeIs(4));
+  EXPECT_THAT(linesWith("tea pot"), ElementsAre("  - {object: tea pot, cloud: tea pot/000.pcd, kind: view, plane: "
+                                                "[0, -0.6, -0.8, 0.75]}"));
+  EXPECT_THAT(linesWith("max_distance"), ElementsAre("max_distance: 0.04"));
+
+  std::string text = readTextFile(path("dataset.yaml"));
+  const std::string line = linesWith("mug/001.pcd").at(0) + "\n";
+  text.erase(text.find(line), line.size());
+  test::writeFile(path("dataset.yaml"), text);
+  const DataSet left = CapturedViews(path("")).read();
+  ASSERT_THAT(left.training, SizeIs(3));
+  EXPECT_EQ(left.training[0].path, path("tea pot/000.pcd"));
+  ASSERT_TRUE(left.training[0].plane);
+  EXPECT_EQ(left.training[1].path, path("mug/000.pcd"));
+  EXPECT_EQ(left.training[2].path, path("mug/002.pcd"));
+
+  views_.removeLast("mug");
+  EXPECT_THAT(linesWith(".pcd"), SizeIs(2));
+}
+
+TEST_F(CapturedViewsTest, MayAllBeDeletedByHand) {
+  for (const char* none : {"name: captured\nunits: m\ntraining:\n", "name: captured\nunits: m\ntraining: []\n",
+                           "name: captured\nunits: m\n"}) {
+    views_.add("mug", view(1));
+    test::writeFile(path("dataset.yaml"), none);
+    EXPECT_THAT(views_.read().training, IsEmpty()) << none;
+    EXPECT_THAT(views_.objects(), IsEmpty()) << none;
+    EXPECT_EQ(views_.remove("mug"), 0u) << none;
+    EXPECT_EQ(views_.add("mug", view(2)).views, 1u) << none;
+    EXPECT_THAT(views_.read().training, SizeIs(1)) << none;
+  }
 }
 
 TEST_F(CapturedViewsTest, TakeTheLastOneBack) {

@@ -106,6 +106,14 @@ TEST(Tabletop, IgnoresWhatFloatsAndWhatIsBelow) {
   EXPECT_THAT(tabletop.objects, IsEmpty());
 }
 
+/// The lid of a box that is held before the camera, and what rises from it: the box goes on below the lid.
+TEST(Tabletop, TakesNoPartOfAHeldThingForAnObject) {
+  const Placed box = slab({0, 0.1f, 0.8f}, {0.12f, 0.1f, 0.12f});
+  const Placed knob = slab({0, -0.03f, 0.69f}, {0.03f, 0.05f, 0.02f});  // also before the front of the box
+  EXPECT_THAT(findTabletop(seen({box, knob})).objects, IsEmpty());
+  EXPECT_THAT(findTabletop(seen({table(), standing({0.06f, 0.1f, 0.04f}, 0, 0.8f)})).objects, SizeIs(1));
+}
+
 TEST(Tabletop, ToleratesNoiseAndNaN) {
   Cloud cloud = seen({table(), standing({0.08f, 0.15f, 0.06f}, 0.1f, 0.8f)});
   std::mt19937 random(7);

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* heading =
-    "# Captured training views. Entries may be deleted while no detector runs; the clouds they name may be at any "
+    "# Captured training views, one a line. Lines may be deleted while no detector runs; the clouds they name at any "
     "time.\n";
 
 /// `000.pcd`, or the name after the last one: a number is not used again while a later file stands there.
@@ -41,7 +41,13 @@ YAML::Node loadFile(const std::string& file) {
   return parseYaml(text, file);
 }
 
-void storeFile(const std::string& file, const YAML::Node& root) {
+/// With a line for each entry, whatever the file looked like before, so that people can take one out.
+void storeFile(const std::string& file, YAML::Node root) {
+  root.SetStyle(YAML::EmitterStyle::Block);
+  if (YAML::Node training = root["training"]) {
+    training.SetStyle(YAML::EmitterStyle::Block);
+    for (YAML::Node entry : training) entry.SetStyle(YAML::EmitterStyle::Flow);
+  }
   YAML::Emitter emitter;
   emitter << root;
   writeFileAtomically(file, std::string(heading) + emitter.c_str() + "\n");
@@ -78,7 +84,6 @@ CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& 
   writeCloud(added.file, view);
 
   YAML::Node root = loadFile(file_), entry;
-  entry.SetStyle(YAML::EmitterStyle::Flow);
   entry["object"] = object;
   entry["cloud"] = object + "/" + name;
   entry["kind"] = "view";

@@ -89,7 +89,8 @@ DataSet DataSetReader::read(const std::string& text) {
     const YamlMap test = mapOf(item, "a test", {"object", "cloud"});
     data_set_.tests.push_back({test.name("object"), cloudPath(test)});
   }
-  if (data_set_.training.empty() && data_set_.missing.empty() && data_set_.scenes.empty() && data_set_.tests.empty()) {
+  const bool empty = data_set_.training.empty() && data_set_.scenes.empty() && data_set_.tests.empty();
+  if (empty && missing_ == MissingClouds::refused) {
     failAt(file_, root, "nothing in it: the data set needs 'training', 'scenes' or 'tests'");
   }
   return std::move(data_set_);

@@ -78,7 +78,7 @@ struct DataSet {
 /// What becomes of training clouds that do not exist.
 enum class MissingClouds {
   refused,
-  left_out  ///< with a warning that names each
+  left_out  ///< with a warning that names each; a file that lists nothing at all is read too
 };
 
 /// Reads a data set file strictly: unknown and repeated keys, unknown units, poses that are not rigid,

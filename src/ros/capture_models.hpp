@@ -5,6 +5,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <sks_detector/registration.hpp>
 
@@ -31,6 +32,7 @@ private:
   struct Known {
     std::string settings;  // as YAML
     sks::ObjectRegistrar registrar;
+    std::vector<std::string> views;  // what they are, in the order of the registrar
   };
 
   std::mutex mutex_;

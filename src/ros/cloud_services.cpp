@@ -37,7 +37,8 @@ StandingObject findObject(const sks::Cloud& cloud) {
                                            double(tabletop.plane.absDistance(cloud.sensor_origin)));
   if (count == 0) {
     throw Error(ErrorCode::bad_data,
-                "no object stands on " + plane + ": put the object on a free table, in view of the camera");
+                "no object stands on " + plane +
+                    ": put the object on a free table, away from its edges, in view of the camera");
   }
   throw Error(ErrorCode::bad_data,
               std::to_string(count) + " objects stand on " + plane + ": leave only the one that is to be captured");
@@ -110,7 +111,7 @@ std::string CloudServices::describeModel(const std::string& object, CaptureView:
     }
     if (response.registered) response.pose = tf2::toMsg(*views.back().T_model_view);
     if (views.size() < 3) return text;  // two cannot confirm each other
-    if (!response.registered) return text + "; it has no place in the model: " + views.back().reason;
+    if (!response.registered) text += "; it has no place in the model yet: " + views.back().reason;
     text += sks::formatted("; %zu of %zu views are registered and show %.0f %% of the directions", result.model.tied(),
                            views.size(), 100 * result.coverage.share);
     return response.missing.empty() ? text : text + "; missing: " + response.missing;

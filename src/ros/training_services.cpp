@@ -53,8 +53,14 @@ void TrainingServices::work(const Train::Request& request, const sks::Progress& 
   const std::string& folder = context_.dataset_directory;
   const TrainingSet set = gatherTrainingSet(request.dataset, request.captured, context_.captured, folder,
                                             sks::meshSampler(mesh_training, warn, folder));
-  for (const std::string& warning : set.warnings) warn(warning);
   warnings = set.warnings;
+  if (settings.training.register_views == sks::RegisterViews::automatic) {
+    for (const std::string& object : set.without_planes) {
+      warnings.push_back("object '" + object + "': its captured views keep frames of their own, for the plane that it" +
+                         " stood on is not known: capture them again, or set training.register_views to true");
+    }
+  }
+  for (const std::string& warning : warnings) warn(warning);
 
   const std::string name = request.name.empty() ? set.name : request.name;
   sks::RegisteredTraining trained = sks::trainRegistered(set.samples, settings, name, progress);

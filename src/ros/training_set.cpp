@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
@@ -45,6 +46,20 @@ void leaveOutUnreadable(sks::DataSet& views) {
   views.training.erase(rest, views.training.end());
 }
 
+/// As captured by releases that did not store planes.
+std::vector<std::string> objectsWithoutPlanes(const sks::DataSet& views) {
+  std::map<std::string, std::size_t> count;
+  for (const sks::TrainingEntry& entry : views.training) ++count[entry.object];
+  for (const sks::TrainingEntry& entry : views.training) {
+    if (entry.plane) count.erase(entry.object);
+  }
+  std::vector<std::string> objects;
+  for (const auto& [object, number] : count) {
+    if (number > 1) objects.push_back(object);
+  }
+  return objects;
+}
+
 void add(sks::DataSet data_set, const std::string& prefix, const std::string& directory,
          const sks::MeshSampler& sampler, TrainingSet& set) {
   checkConfined(data_set, directory);
@@ -72,6 +87,7 @@ TrainingSet gatherTrainingSet(const std::string& dataset, bool captured, const s
     if (set.name.empty()) set.name = data_set.name;
     checkConfined(data_set, directory);
     leaveOutUnreadable(data_set);
+    set.without_planes = objectsWithoutPlanes(data_set);
     add(data_set, dataset.empty() ? "" : "captured/", directory, sampler, set);
     if (set.samples.empty() && !data_set.missing.empty()) {
       throw Error(ErrorCode::bad_usage, "there is nothing to train: no captured view can be used; " +

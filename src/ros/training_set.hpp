@@ -16,6 +16,8 @@ struct TrainingSet {
   std::string name;  ///< of the data set
   std::vector<sks::TrainingSample> samples;
   std::vector<std::string> warnings;  ///< of the data sets; also names what was captured and is left out
+  /// Captured objects with several views, none of them with the plane that the object stood on.
+  std::vector<std::string> without_planes;
 };
 
 /// Gathers a training set from a data set file and the captured views.

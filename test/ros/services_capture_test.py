@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Training views from the camera: capture, train, detect; what is refused; restarts."""
 import os
+import re
 
 import numpy as np
 import rospy
@@ -111,6 +112,18 @@ class CaptureServicesTest(services_support.ServicesTest):
         trained = self.succeed("train")
         self.assertEqual(trained.views, 3)
         self.refuse("undo_capture", "no view of 'other' was captured", object="other")
+
+    def test_says_which_captured_views_have_no_plane(self):
+        """As those of earlier releases."""
+        for turn in (0, 20, 40):
+            self.captured(tabletop(standing(synthetic.THING, 0.05, turn=turn)), "thing")
+        with open(self.file("dataset.yaml")) as file:
+            lines = re.sub(r", plane: \[[^]]*\]", "", file.read())
+        with open(self.file("dataset.yaml"), "w") as file:
+            file.write(lines)
+        self.assertIn("object 'thing': its captured views keep frames of their own", self.succeed("train").message)
+        self.captured(tabletop(standing(synthetic.THING, 0.05, turn=60)), "thing")
+        self.assertIn("thing/000.pcd: the plane that it stood on is not known", self.succeed("train").message)
 
     def test_trains_captured_views_beside_a_data_set(self):
         self.captured(tabletop(standing(synthetic.ROUND)), "ball")

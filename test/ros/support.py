@@ -139,13 +139,20 @@ def position_of(pose):
 
 
 def matrix_of(pose):
-    q = pose.orientation
-    x, y, z, w = q.x, q.y, q.z, q.w
+    return _matrix(pose.position, pose.orientation)
+
+
+def matrix_of_transform(transform):
+    return _matrix(transform.translation, transform.rotation)
+
+
+def _matrix(position, orientation):
+    x, y, z, w = orientation.x, orientation.y, orientation.z, orientation.w
     T = np.eye(4)
     T[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
                  [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
                  [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
-    T[:3, 3] = position_of(pose)
+    T[:3, 3] = [position.x, position.y, position.z]
     return T
 
 

@@ -22,7 +22,7 @@
 #include "evaluation/registered_truth.hpp"
 #include "simulation/builtin_objects.hpp"
 #include "simulation/renderer.hpp"
-#include "simulation/shapes.hpp"
+#include "table_scene.hpp"
 #include "temporary_folder.hpp"
 
 namespace sks {
@@ -38,19 +38,13 @@ class TableView {
 public:
   explicit TableView(const std::string& object)
       : object_(object), mesh_(std::make_shared<const Mesh>(builtinObject(object))) {
-    const Eigen::AlignedBox3f box = mesh_->box();
-    T_table_mesh_.translation() = -Eigen::Vector3f(box.center().x(), box.center().y(), box.min().z()).cast<double>();
-    target_ = Eigen::Vector3d(0, 0, 0.5 * double(box.sizes().z()));
-    const auto table = std::make_shared<Mesh>(makeBox({1, 1, 0.02f}, plain({150, 140, 130}), 0.02f));
-    renderer_->addInstance(renderer_->addMesh(table), Eigen::Isometry3d(Eigen::Translation3d(0, 0, -0.01)));
-    renderer_->addInstance(renderer_->addMesh(mesh_), T_table_mesh_);
+    target_ = Eigen::Vector3d(0, 0, 0.5 * double(mesh_->box().sizes().z()));
+    test::addTable(*renderer_);
+    renderer_->addInstance(renderer_->addMesh(mesh_), test::standingPose(*mesh_));
   }
 
   Eigen::Isometry3d T_table_camera(double degrees) const {
-    const double turn = degrees * EIGEN_PI / 180;
-    const Eigen::Vector3d direction(std::cos(turn) * std::cos(elevation), std::sin(turn) * std::cos(elevation),
-                                    std::sin(elevation));
-    return lookAt(target_ + distance * direction, target_, Eigen::Vector3d::UnitZ());
+    return test::cameraAt(target_, degrees, elevation, distance);
   }
 
   Cloud picture(double degrees, std::uint64_t noise) const {
@@ -62,12 +56,9 @@ public:
     return captured(picture(degrees, noise + std::uint64_t(degrees)), degrees);
   }
 
-  /// The same while somebody holds the object: a forearm beside it and partly before it.
+  /// The same while somebody holds the object.
   TrainingSample captureWithArm(double degrees) const {
-    const Eigen::Vector3f hand(0.05f, 0.04f, 0.05f), elbow(0.16f, 0.28f, 0.2f);  // x towards the camera
-    const auto arm = std::make_shared<Mesh>(makeRod(hand, elbow, 0.025f, 0.04f, plain({220, 170, 140})));
-    const Eigen::Isometry3d turned(Eigen::AngleAxisd(degrees * EIGEN_PI / 180, Eigen::Vector3d::UnitZ()));
-    const std::size_t instance = renderer_->addInstance(renderer_->addMesh(arm), turned);
+    const std::size_t instance = test::addForearm(*renderer_, test::turnedBy(degrees));
     const TrainingSample sample = captured(picture(degrees, std::uint64_t(degrees)), degrees);
     renderer_->setVisible(instance, false);
     return sample;
@@ -112,7 +103,6 @@ private:
   std::string object_;
   std::shared_ptr<const Mesh> mesh_;
   std::shared_ptr<Renderer> renderer_ = std::make_shared<Renderer>();
-  Eigen::Isometry3d T_table_mesh_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d target_;
 };
 
@@ -460,6 +450,19 @@ TEST(ViewRegistrationTest, RegistersWithoutPlanesOnlyWhereAsked) {
   EXPECT_FALSE(registered.on_plane);
   const auto [shift, turn] = duck.spread(registered, degreesOf(registered));
   EXPECT_LT(turn, 2 * degree);
+}
+
+TEST(ViewRegistrationTest, LeavesAViewWithoutItsPlaneAlone) {
+  const TableView duck("duck");
+  std::vector<TrainingSample> samples = duck.captureAround(5, 0, 125);
+  samples[2].plane.reset();
+  const ViewRegistration registration = registerViews(samples, Settings());
+  const RegisteredObject& registered = registration.objects.at(0);
+  EXPECT_GE(registered.tied(), 3u);
+  EXPECT_FALSE(registered.views[2].T_model_view);
+  EXPECT_EQ(registered.views[2].reason, "the plane that it stood on is not known");
+  EXPECT_TRUE(registration.samples[2].frame.empty());
+  EXPECT_THAT(registrationWarnings({registered}), ElementsAre(HasSubstr("duck50: the plane that it stood on is not")));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <string>
 
 #include <sks_detector/error.hpp>
+#include <sks_detector/stages/point_grid.hpp>
 
 #include "core/capture/convex_polygon.hpp"
 #include "core/capture/plane_patch.hpp"
@@ -22,6 +23,11 @@ constexpr float inner_border = 0.02f;      // things that do not reach so far ov
 constexpr int most_tried_planes = 4;
 constexpr double least_share = 0.25;  // of the largest plane's area
 
+// Standard deviation of a plane's points, of its tolerance: noise lies below, the crest of a round thing above.
+constexpr double largest_roughness = 0.5;
+// Share of a thing that may lie next to points that are neither on nor above the plane: strays of the sensor.
+constexpr double most_open = 0.1;
+
 /// What rises above a patch.
 class Stage {
 public:
@@ -37,15 +43,25 @@ public:
   double lift() const { return lift_; }
 
   std::vector<Indices> objects(const Cloud& cloud, const Indices& finite) const {
-    Indices above;
+    Indices above, beyond;
     for (const std::uint32_t i : finite) {
       const float height = plane_.signedDistance(cloud.points[i]);
-      if (height > lift_ && height < settings_.max_height && depth(cloud.points[i]) >= 0) above.push_back(i);
+      const bool inside = depth(cloud.points[i]) >= 0;
+      if (height > lift_ && height < settings_.max_height && inside) {
+        above.push_back(i);
+      } else if (height < -float(std::max(double(lift_), settings_.plane_tolerance)) || height > lift_) {
+        beyond.push_back(i);
+      }
+    }
+    PointGrid surroundings;
+    if (!beyond.empty()) {
+      surroundings = PointGrid(groupByVoxel(at(cloud.points, beyond), cluster_spacing).centroids, settings_.gap);
     }
     const std::vector<Eigen::Vector3f> points = at(cloud.points, above);
     const VoxelGroups voxels = groupByVoxel(points, cluster_spacing);
     std::vector<Indices> objects;
     for (const Indices& cluster : findClusters(voxels.centroids, settings_.gap)) {
+      if (isPart(at(voxels.centroids, cluster), surroundings)) continue;
       Indices object;
       for (const std::uint32_t v : cluster) {
         for (std::uint32_t k = voxels.begin[v]; k < voxels.begin[v + 1]; ++k) object.push_back(above[voxels.points[k]]);
@@ -71,6 +87,20 @@ private:
   }
 
   float depth(const Eigen::Vector3f& p) const { return outline_.depth({p.dot(u_), p.dot(v_)}); }
+
+  /// Whether a thing goes on where the plane does not. What is held before the camera does: the plane is a side of it,
+  /// or of the arm, then.
+  bool isPart(const std::vector<Eigen::Vector3f>& points, const PointGrid& surroundings) const {
+    if (surroundings.size() == 0) return false;
+    std::vector<PointGrid::Run> runs;
+    std::size_t open = 0;
+    for (const Eigen::Vector3f& p : points) {
+      bool near = false;
+      surroundings.forEachNeighbor(p, float(settings_.gap), runs, [&](std::uint32_t, float) { near = true; });
+      open += near ? 1 : 0;
+    }
+    return double(open) > most_open * double(points.size());
+  }
 
   bool stands(const std::vector<Eigen::Vector3f>& points) const {
     if (points.size() < std::size_t(settings_.min_points)) return false;
@@ -122,10 +152,14 @@ Tabletop findTabletop(const Cloud& cloud, const TabletopSettings& settings) {
   for (int i = 0; i < most_tried_planes; ++i) {
     const PlanePatch patch = largestPatch(thinned, settings.plane_tolerance, patch_gap, cloud.sensor_origin);
     if (patch.points.size() < 3) break;
+    if (patch.deviation > largest_roughness * settings.plane_tolerance) {
+      remove(thinned, patch.inliers);
+      continue;
+    }
     const Stage stage(patch, settings);
     if (stage.area() < std::max(settings.min_area, least_share * best.area)) break;
     Tabletop tabletop{patch.plane, stage.area(), stage.lift(), stage.objects(cloud, measured)};
-    if (i == 0 || !tabletop.objects.empty()) best = std::move(tabletop);
+    if (best.area == 0 || !tabletop.objects.empty()) best = std::move(tabletop);
     if (!best.objects.empty()) break;
     remove(thinned, patch.inliers);
   }

@@ -13,7 +13,7 @@ namespace sks {
 /// What counts as a plane and as an object that stands on it.
 struct TabletopSettings {
   double plane_tolerance = 0.01;  ///< farthest that points of a plane lie from it [m]
-  double min_area = 0.02;         ///< smaller planes are none [m^2]
+  double min_area = 0.04;         ///< smaller planes are none [m^2]: a square of 0.2 m; arms show less
   double min_height = 0.005;      ///< what rises less is the plane's noise, and at least three standard deviations [m]
   double max_height = 0.5;        ///< what rises more is cut off [m]
   double max_extent = 0.6;        ///< what is wider is furniture or a wall, no object [m]
@@ -32,8 +32,9 @@ struct Tabletop {
 };
 
 /// Tabletop segmentation: the largest plane (RANSAC on points thinned to an even density), and above the convex hull
-/// of what is seen of it clusters of points that reach down to it. Where nothing stands on the largest plane (a wall),
-/// others of at least a quarter of its area are tried. Deterministic.
+/// of what is seen of it clusters of points that reach down to it and do not go on beyond it. Where nothing stands on
+/// the largest plane (a wall), others of at least a quarter of its area are tried; curved surfaces are none.
+/// Deterministic.
 /// @param cloud in its camera's frame or with its sensor origin set; NaN points are skipped
 /// @throws Error(bad_data) if there is no plane
 Tabletop findTabletop(const Cloud& cloud, const TabletopSettings& settings = {});

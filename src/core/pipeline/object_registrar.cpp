@@ -55,6 +55,11 @@ struct ObjectRegistrar::Views {
     return view;
   }
 
+  /// Whether a view is not compared with the others: without its plane only if all are to be registered.
+  bool isApart(const CapturedView& view) const {
+    return !view.plane && settings.training.register_views != RegisterViews::on;
+  }
+
   std::string object;
   Settings settings;
   int threads;
@@ -85,7 +90,10 @@ void ObjectRegistrar::add(const TrainingSample& sample) {
   const std::size_t b = views.size() - 1;
   std::vector<std::vector<ViewRelation>> of_pairs(b);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(views_->threads)
-  for (std::size_t a = 0; a < b; ++a) of_pairs[a] = relateViews(views[a], views[b], views_->settings, views_->limits);
+  for (std::size_t a = 0; a < b; ++a) {
+    if (views_->isApart(views[a]) || views_->isApart(views[b])) continue;
+    of_pairs[a] = relateViews(views[a], views[b], views_->settings, views_->limits);
+  }
   for (std::size_t a = 0; a < b; ++a) {
     for (ViewRelation& relation : of_pairs[a]) {
       relation.a = a;
@@ -141,6 +149,7 @@ RegisteredObject ObjectRegistrar::result() const {
     view.source = views_->sources[v];
     view.T_model_view = tied.T_model_view[v];
     view.reason = tied.reasons[v];
+    if (views_->isApart(views[v])) view.reason = "the plane that it stood on is not known";
     if (view.T_model_view) view.sensor = *view.T_model_view * views[v].surface.sensor_origin.cast<double>();
     object.views.push_back(std::move(view));
   }

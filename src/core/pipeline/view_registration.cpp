@@ -36,8 +36,9 @@ std::vector<RegisteredObject> capturedObjects(const std::vector<TrainingSample>&
   return objects;
 }
 
+/// Of some of its views; the registrar leaves the others alone.
 bool planesKnown(const RegisteredObject& object, const std::vector<TrainingSample>& samples) {
-  return std::all_of(object.views.begin(), object.views.end(),
+  return std::any_of(object.views.begin(), object.views.end(),
                      [&](const RegisteredView& view) { return bool(samples[view.sample].plane); });
 }
 

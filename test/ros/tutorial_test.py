@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""docs/training.md, "With a camera", before a virtual camera: captures an object from all around, trains it and finds
+it from other directions in one frame; and what goes wrong on the way."""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import threading
+import unittest
+
+import dynamic_reconfigure.client
+import numpy as np
+import rosbag
+import rospy
+import rostest
+import tf2_msgs.msg
+
+import services_support
+import support
+
+TABLE = {"elevation": 35, "distance": 0.7}
+AROUND = [dict(TABLE, degrees=30 * i) for i in range(12)]
+ELSEWHERE = [{"degrees": 10 + 36 * i, "elevation": 28 + 3 * i, "distance": 0.6 + 0.03 * (i * 3 % 10)}
+             for i in range(10)]
+
+
+def angle_of(R):
+    """[degrees]"""
+    return np.degrees(np.arccos(np.clip((np.trace(R[:3, :3]) - 1) / 2, -1, 1)))
+
+
+class Picture:
+    """A frame of a recording, with the camera's pose on the table and the frame that the object's model has where this
+    is its first view, both as T_table."""
+
+    def __init__(self, cloud, transform, truth):
+        self.cloud = cloud
+        self.T_table_camera = support.matrix_of_transform(transform)
+        self.T_table_model = self.T_table_camera @ support.matrix_of(truth.pose.pose)
+
+
+def recorded(folder, pictures):
+    """What the virtual camera sees."""
+    lists, bag = os.path.join(folder, "pictures.json"), os.path.join(folder, "pictures.bag")
+    with open(lists, "w") as file:
+        json.dump(pictures, file)
+    subprocess.check_call(["rosrun", "sks_detector", "record_table", lists, bag])
+    topics = {"/camera/depth_registered/points": [], "/tf": [], "/ground_truth": []}
+    with rosbag.Bag(bag) as recording:
+        for topic, message, _ in recording.read_messages(topics):
+            topics[topic].append(message)
+    os.remove(bag)
+    clouds, transforms, truths = topics.values()
+    return [Picture(cloud, tf.transforms[0].transform, truth.detections[0])
+            for cloud, tf, truth in zip(clouds, transforms, truths)]
+
+
+class Camera:
+    """Publishes the picture that it is shown, over and over."""
+
+    def __init__(self, topic):
+        self._source = support.CloudSource(topic, queue_size=1)
+        self._lock = threading.Lock()
+        self._cloud = None
+        self._timer = rospy.Timer(rospy.Duration(0.2), self._publish)
+
+    def show(self, picture):
+        """The time from which on clouds show it."""
+        with self._lock:
+            self._cloud = picture.cloud
+            return rospy.Time.now()
+
+    def _publish(self, _):
+        with self._lock:
+            if self._cloud and self._source.publisher.get_num_connections() > 0:
+                self._cloud.header.stamp = rospy.Time.now()
+                self._source.publisher.publish(self._cloud)
+
+    def stop(self):
+        self._timer.shutdown()
+
+
+class TutorialTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix="sks_tutorial_")
+        cls.mesh = rospy.get_param("~object", "builtin:duck")
+        other = "builtin:box"
+        groups = {"around": [dict(p, object=cls.mesh) for p in AROUND],
+                  "elsewhere": [dict(p, object=cls.mesh) for p in ELSEWHERE],
+                  "other": [dict(AROUND[3], object=other)],
+                  "with_arm": [dict(AROUND[3], object=cls.mesh, arm=True)],
+                  "held": [dict(AROUND[0], object=cls.mesh, arm=True, lift=0.15),
+                           dict(AROUND[0], object=cls.mesh, arm=True, table=False)]}
+        pictures = recorded(cls.folder, sum(groups.values(), []))
+        cls.pictures = {name: [pictures.pop(0) for _ in group] for name, group in groups.items()}
+        cls.camera = Camera("/camera/points")
+        cls.launch = subprocess.Popen(["roslaunch", "sks_detector", "train.launch", "folder:=" + cls.folder])
+        cls.services = {name: rospy.ServiceProxy("/detector/" + name, kind)
+                        for name, kind in services_support.TYPES.items()}
+        for service in cls.services.values():
+            service.wait_for_service(support.PATIENCE)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.launch.send_signal(signal.SIGINT)
+        cls.launch.wait(support.PATIENCE)
+        cls.camera.stop()
+        shutil.rmtree(cls.folder)
+
+    def call(self, service, **fields):
+        reply = self.services[service](**fields)
+        self.assertTrue(reply.success, reply.message)
+        return reply
+
+    def capture(self, picture, name):
+        self.camera.show(picture)
+        return self.services["capture_view"](object=name, timeout=support.PATIENCE)
+
+    def captured(self, pictures, name):
+        """The replies to views that are all stored."""
+        self.addCleanup(self.take_back, name)
+        replies = [self.capture(picture, name) for picture in pictures]
+        for reply in replies:
+            self.assertTrue(reply.success, reply.message)
+        return replies
+
+    def take_back(self, name):
+        while self.services["undo_capture"](object=name).success:
+            pass
+
+    def transform_of(self, name, transforms, since):
+        """T_camera_model of the first cloud that came after a time."""
+        message = transforms.wait_for(lambda m: m.transforms[0].header.stamp >= since, "a detection in /tf")
+        self.assertEqual([t.child_frame_id for t in message.transforms], [name])
+        return support.matrix_of_transform(message.transforms[0].transform)
+
+    def test_an_object_has_one_frame_from_all_sides(self):
+        around = self.pictures["around"]
+        replies = self.captured(around, "toy")
+        for i, reply in enumerate(replies):
+            self.assertIn("view %d of 'toy'" % (i + 1), reply.message)
+            self.assertIn("a good view", reply.message)
+            self.assertEqual((reply.views, reply.same_as), (i + 1, ""))
+        last = replies[-1]
+        self.assertGreaterEqual(last.registered_views, 9, last.message)
+        self.assertGreaterEqual(last.coverage, 0.8, last.message)
+
+        trained = self.call("train", captured=True, output="mine.sks")
+        self.assertEqual((trained.objects, trained.views), (1, 12))
+        self.assertNotIn("toy/000.pcd", trained.message)
+        self.assertTrue(os.path.exists(os.path.join(self.folder, "mine.sks")))
+
+        transforms = support.Recorder("/tf", tf2_msgs.msg.TFMessage)
+        self.addCleanup(transforms.close)
+        reconfigure = dynamic_reconfigure.client.Client("detector", timeout=support.PATIENCE)
+        reconfigure.update_configuration({"publish_tf": True})
+        self.addCleanup(reconfigure.update_configuration, {"publish_tf": False})
+        for place, picture in zip(ELSEWHERE, self.pictures["elsewhere"]):
+            with self.subTest(**place):
+                T = self.transform_of("toy", transforms, self.camera.show(picture))
+                error = np.linalg.inv(around[0].T_table_model) @ picture.T_table_camera @ T
+                self.assertLess(np.linalg.norm(error[:3, 3]), 0.005)
+                self.assertLess(angle_of(error), 3)
+
+    def test_what_goes_wrong_on_the_way(self):
+        """Two views alone, another object, a hand in the picture: not tied, taken back, captured again."""
+        around = self.pictures["around"]
+        self.captured(around[:2], "toy")
+        self.assertIn("toy/000.pcd: two views alone cannot confirm each other", self.call("train").message)
+        self.assertTrue(self.capture(around[2], "toy").registered)
+        for wrong in ("other", "with_arm"):
+            with self.subTest(wrong):
+                reply = self.capture(self.pictures[wrong][0], "toy")
+                self.assertFalse(reply.registered, reply.message)
+                self.assertIn("it has no place in the model yet: ", reply.message)
+                self.assertIn("3 of 4 views are registered", reply.message)
+                self.assertIn("3 views are left", self.call("undo_capture", object="toy").message)
+        again = self.capture(around[3], "toy")
+        self.assertEqual((again.registered, again.views, again.registered_views), (True, 4, 4), again.message)
+        repeated = self.capture(around[2], "toy")
+        self.assertEqual(repeated.same_as, "toy/002.pcd")
+        self.assertIn("it shows the same as view 3", repeated.message)
+
+    def test_what_does_not_stand_on_a_plane_is_refused(self):
+        above_table, without_table = (self.capture(picture, "held") for picture in self.pictures["held"])
+        for reply in (above_table, without_table):
+            self.assertFalse(reply.success, reply.message)
+            self.assertRegex(reply.message, "no object stands on the dominant plane|there is no plane in the cloud")
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "datasets", "captured", "held")))
+
+
+if __name__ == "__main__":
+    rospy.init_node("tutorial_test")
+    rostest.rosrun("sks_detector", "tutorial", TutorialTest)
