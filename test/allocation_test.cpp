@@ -110,7 +110,7 @@ TEST(Allocations, PosesNeedThoseOfTheirConfirmingPointsOnly) {
   const sks::Codebook codebook = sks::train({sks::test::sampleOf("thing", cloud)}, settings, "synthetic");
   const sks::TrainingView& view = codebook.views.at(0);
   const sks::SurfaceWeights surface_weights(view);
-  const sks::RoughSurface rough(view, surface_weights);
+  const sks::RoughSurface rough(view);
   const Eigen::Isometry3d near_truth(Eigen::Translation3d(0.004, -0.003, 0.002));
   EXPECT_EQ(allocationsOf([&] { EXPECT_GT(sks::roughSupport(rough, scene, near_truth).points, 20); }), 0u);
   EXPECT_EQ(allocationsOf([&] { sks::refineAlongRays(view, scene, settings.refinement, near_truth); }), 0u);
