@@ -161,7 +161,7 @@ TEST(Faults, FullDiskKeepsTheOldCodebook) {
   SKIP_UNLESS_MOUNTED(disk);
   writeCodebook(disk.path("toys.sks"), codebookOf("old", 20));
   const std::string before = readTextFile(disk.path("toys.sks"));
-  EXPECT_EQ(errorOf(ErrorCode::bad_file, [&] { writeCodebook(disk.path("toys.sks"), codebookOf("new", 500)); }),
+  EXPECT_EQ(errorOf(ErrorCode::bad_file, [&] { writeCodebook(disk.path("toys.sks"), codebookOf("new", 1500)); }),
             "cannot write '" + disk.path("toys.sks") + "': No space left on device");
   EXPECT_EQ(readTextFile(disk.path("toys.sks")), before);
   EXPECT_EQ(disk.fileCount(), 1u);
