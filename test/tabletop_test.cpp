@@ -106,12 +106,22 @@ TEST(Tabletop, IgnoresWhatFloatsAndWhatIsBelow) {
   EXPECT_THAT(tabletop.objects, IsEmpty());
 }
 
-/// The lid of a box that is held before the camera, and what rises from it: the box goes on below the lid.
+/// A large lid, and what rises from it at its front edge and goes on below it.
 TEST(Tabletop, TakesNoPartOfAHeldThingForAnObject) {
-  const Placed box = slab({0, 0.1f, 0.8f}, {0.12f, 0.1f, 0.12f});
-  const Placed knob = slab({0, -0.03f, 0.69f}, {0.03f, 0.05f, 0.02f});  // also before the front of the box
-  EXPECT_THAT(findTabletop(seen({box, knob})).objects, IsEmpty());
-  EXPECT_THAT(findTabletop(seen({table(), standing({0.06f, 0.1f, 0.04f}, 0, 0.8f)})).objects, SizeIs(1));
+  const float lid = table_height;
+  const Placed box = slab({0, lid + 0.1f, 0.9f}, {0.3f, 0.1f, 0.25f});
+  const Placed before = slab({0, lid - 0.03f, 0.64f}, {0.03f, 0.05f, 0.02f});
+  EXPECT_THAT(findTabletop(seen({box, before})).objects, IsEmpty());
+  const Placed on_the_lid = slab({0, lid - 0.05f, 0.8f}, {0.03f, 0.05f, 0.02f});
+  EXPECT_THAT(findTabletop(seen({box, on_the_lid})).objects, SizeIs(1));
+}
+
+/// Lids of smaller boxes, and arms, are no tables.
+TEST(Tabletop, NeedsAPlaneThatIsLargeEnough) {
+  const Placed box = slab({0, table_height + 0.1f, 0.8f}, {0.07f, 0.1f, 0.07f});
+  const Placed knob = slab({0, table_height - 0.05f, 0.8f}, {0.03f, 0.05f, 0.02f});
+  EXPECT_THAT(test::errorOf(ErrorCode::bad_data, [&] { findTabletop(seen({box, knob})); }),
+              testing::StartsWith("there is no plane in the cloud"));
 }
 
 TEST(Tabletop, ToleratesNoiseAndNaN) {

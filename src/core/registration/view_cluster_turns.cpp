@@ -22,6 +22,7 @@ std::optional<double> ViewCluster::findOtherTurn(std::size_t view) const {
   for (const ViewPlacement& placement :
        uprightPlacements(views, poses_, view, *poses_[view], settings_, limits_, placement_slack)) {
     if (nearlySame(placement.T_model_view, *poses_[view], views[view].center, same_turn)) continue;
+    if (placement.overlap < limits_.least_overlap) continue;  // where nothing is shared, nothing looks the same
     return turnOf(placement.T_model_view * poses_[view]->inverse());
   }
   return std::nullopt;
