@@ -9,7 +9,9 @@
 namespace sks {
 namespace {
 
-constexpr LoopLimits same_turn{0.1745, 0.015};  // 10 degrees: alignment does not always come back exactly
+// 30 degrees, two steps of the search, and what they move the middle of a view by: alignment does not always come back
+// from there.
+constexpr LoopLimits same_turn{0.5236, 0.03};
 
 double turnOf(const Eigen::Isometry3d& motion) {
   return std::atan2(motion.linear()(1, 0), motion.linear()(0, 0));
