@@ -141,7 +141,8 @@ QuantizedDescriptors descriptorsOf(const std::shared_ptr<const FileContent>& fil
     badCodebook("its " + std::to_string(rows) + " codewords have not one descriptor each; train it again");
   }
   const std::uint8_t* section = file->data() + header.descriptors_offset;
-  return {section + levels, reinterpret_cast<const float*>(section), rows, columns, file};
+  const auto* scales = static_cast<const float*>(static_cast<const void*>(section));  // sections are aligned
+  return {section + levels, scales, rows, columns, file};
 }
 
 std::shared_ptr<const Codebook> read(const std::shared_ptr<FileContent>& file) {

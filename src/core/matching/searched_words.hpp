@@ -14,7 +14,10 @@ namespace sks {
 class SearchedWords {
 public:
   SearchedWords() = default;
-  SearchedWords(DescriptorMatrix words) : floats_(std::move(words)) {}       // NOLINT(google-explicit-constructor)
+  // Both are words as they stand, so they convert.
+  // cppcheck-suppress noExplicitConstructor
+  SearchedWords(DescriptorMatrix words) : floats_(std::move(words)) {}  // NOLINT(google-explicit-constructor)
+  // cppcheck-suppress noExplicitConstructor
   SearchedWords(QuantizedDescriptors words) : rounded_(std::move(words)) {}  // NOLINT(google-explicit-constructor)
 
   std::size_t rows() const { return floats_.rows() + rounded_.rows(); }
