@@ -43,10 +43,10 @@ protected:
   const std::shared_ptr<const Codebook> codebook_ = std::make_shared<const Codebook>(
       train({sampleOf("thing", view({{asymmetricShape(), T_scene_shape}}))}, Settings(), "synthetic"));
   const VerifiedModels models_{codebook_, 1};
-  const Surface scene_ = prepared(view({{asymmetricShape(), T_scene_shape},
-                                        {Shape{{Solid::Shape::box, {0, 0, 0}, {0.8f, 0.8f, 0.01f}}},
-                                         poseOf(0, {0, 0, 1}, {0, 0, 1.2f})}},
-                                       0.0025f, 240, 200));
+  const Surface scene_ =
+      prepared(view({{asymmetricShape(), T_scene_shape},
+                     {Shape{{Solid::Shape::box, {0, 0, 0}, {0.8f, 0.8f, 0.01f}}}, poseOf(0, {0, 0, 1}, {0, 0, 1.2f})}},
+                    0.0025f, 240, 200));
   const SceneView view_{scene_, settings_};
 };
 
@@ -54,9 +54,8 @@ TEST_F(CandidateChoice, TheNearlyRightPoseIsBestAndStaysAsItWas) {
   const std::vector<PoseCandidate> kept = chosen(candidates(119), 1);
   EXPECT_EQ(kept.size(), std::size_t(0.8 * settings_.verification.candidates));
   EXPECT_TRUE(kept.front().T_scene_model.isApprox(nearlyRight(), 1e-12));
-  EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end(), [](const PoseCandidate& a, const PoseCandidate& b) {
-    return a.pre_score > b.pre_score;
-  }));
+  EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end(),
+                             [](const PoseCandidate& a, const PoseCandidate& b) { return a.pre_score > b.pre_score; }));
 }
 
 TEST_F(CandidateChoice, FewAreAllKept) {

@@ -120,7 +120,10 @@ TEST(Tabletop, TakesNoPartOfAHeldThingForAnObject) {
 TEST(Tabletop, NeedsAPlaneThatIsLargeEnough) {
   const Placed box = slab({0, table_height + 0.1f, 0.8f}, {0.07f, 0.1f, 0.07f});
   const Placed knob = slab({0, table_height - 0.05f, 0.8f}, {0.03f, 0.05f, 0.02f});
-  EXPECT_THAT(test::errorOf(ErrorCode::bad_data, [&] { findTabletop(seen({box, knob})); }),
+  EXPECT_THAT(test::errorOf(ErrorCode::bad_data,
+                            [&] {
+                              findTabletop(seen({box, knob}));
+                            }),
               testing::StartsWith("there is no plane in the cloud"));
 }
 

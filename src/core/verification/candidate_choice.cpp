@@ -11,7 +11,7 @@ namespace {
 
 constexpr double first_rounds = 0.42;  // of all
 constexpr double kept_share = 0.8;     // on recorded scenes the first right one was among the 15 best of 120
-constexpr int fewest_kept = 20;  // of an object
+constexpr int fewest_kept = 20;        // of an object
 
 }  // namespace
 

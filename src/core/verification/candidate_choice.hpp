@@ -10,8 +10,8 @@
 
 namespace sks {
 
-/// Of each object the four fifths of the candidates that fit the scene best after some rounds of ICP with few points: by
-/// then right ones stand out. Best first; their poses are as they were. The same for any number of threads.
+/// Of each object the four fifths of the candidates that fit the scene best after some rounds of ICP with few points:
+/// by then right ones stand out. Best first; their poses are as they were. The same for any number of threads.
 std::vector<PoseCandidate> mostPromisingCandidates(std::vector<PoseCandidate> candidates, const VerifiedModels& models,
                                                    const SceneView& scene, const Settings& settings, int threads);
 

@@ -14,12 +14,12 @@ namespace sks {
 /// All that is known of an object's surface in one model frame: what its registered views saw together. Of a view with
 /// a frame of its own: what that view saw.
 struct ModelSurface {
-  std::vector<Eigen::Vector3f> points;   ///< [m], model frame; about one for each cube of `resolution`
-  std::vector<Eigen::Vector3f> normals;  ///< unit
-  std::vector<Eigen::Vector3f> colors;   ///< as in Surface; empty without colour
-  float resolution = 0;                  ///< [m]
-  std::vector<std::uint32_t> views;      ///< that it is made of: indices into Codebook::views
-  std::vector<Eigen::Vector3f> centers;  ///< of the boxes of these views [m]
+  std::vector<Eigen::Vector3f> points;      ///< [m], model frame; about one for each cube of `resolution`
+  std::vector<Eigen::Vector3f> normals;     ///< unit
+  std::vector<Eigen::Vector3f> colors;      ///< as in Surface; empty without colour
+  float resolution = 0;                     ///< [m]
+  std::vector<std::uint32_t> views;         ///< that it is made of: indices into Codebook::views
+  std::vector<Eigen::Vector3f> centers;     ///< of the boxes of these views [m]
   std::vector<Eigen::Vector3f> directions;  ///< unit vectors from there to the sensors that took them
 };
 

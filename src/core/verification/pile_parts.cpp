@@ -25,11 +25,11 @@ constexpr std::size_t fewest_of_core = 4;
 constexpr float step_in_core = 1.6f;  // spacings
 // Sticks
 constexpr int line_trials = 500, most_picks = 16;  // ... of a second point
-constexpr float noise_beside = 0.003f;  // [m]
-constexpr float step_in_stick = 3;      // spacings without a point end it
-constexpr float shortest_stick = 5;     // length over width
-constexpr float least_filled = 0.5f;    // of a row of points along it
-constexpr float most_beside = 0.25f;    // of its points, on both sides of it
+constexpr float noise_beside = 0.003f;             // [m]
+constexpr float step_in_stick = 3;                 // spacings without a point end it
+constexpr float shortest_stick = 5;                // length over width
+constexpr float least_filled = 0.5f;               // of a row of points along it
+constexpr float most_beside = 0.25f;               // of its points, on both sides of it
 
 using Positions = std::vector<Eigen::Vector3f>;
 

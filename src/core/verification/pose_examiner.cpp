@@ -16,9 +16,9 @@ constexpr double area_unit = 1e-4;      // [m^2] areas enter the evidence in cm^
 constexpr double prior_area = 0.25e-4;  // [m^2] keeps the fraction of a very small area low
 constexpr double color_gain = 1.8;      // of evidence: what right poses lose by colours that agree to about 0.8
 constexpr std::size_t first_points = 250, last_points = 1500;  // examined to choose between poses, and of the chosen
-constexpr double least_promising = 0.5;   // evidence of a turned pose before its fit, beside that of the pose itself
-constexpr double standing_density = 2;  // of votes: what it is worth that something stands alone there
-constexpr double well_sampled = 4;      // spacings of points within the radius of a normal
+constexpr double least_promising = 0.5;  // evidence of a turned pose before its fit, beside that of the pose itself
+constexpr double standing_density = 2;   // of votes: what it is worth that something stands alone there
+constexpr double well_sampled = 4;       // spacings of points within the radius of a normal
 
 constexpr int fine = 8;  // times as many points, of all sides, fit the pose that is told in the end
 

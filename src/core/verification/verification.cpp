@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "core/verification/candidate_choice.hpp"
 #include "core/verification/color_shift.hpp"
 #include "core/verification/pile_candidates.hpp"
-#include "core/verification/candidate_choice.hpp"
 #include "core/verification/pose_candidates.hpp"
 #include "core/verification/projective_refinement.hpp"
 #include "core/verification/score.hpp"
