@@ -77,6 +77,14 @@ TEST(LowestBounds, NegativeBoundsAreLow) {
   EXPECT_THAT(lowest.slots, testing::Contains(1250u));
 }
 
+TEST(LowestBounds, ManyEqualOnesAreCountedRightly) {
+  const std::vector<float> bounds(70000, 1.0f);
+  LowestBounds lowest;
+  lowest.begin(1, 1.0f);
+  addInParts(bounds, lowest);
+  EXPECT_EQ(lowest.bounds.size(), bounds.size());
+}
+
 TEST(LowestBounds, BeginsAnew) {
   LowestBounds lowest;
   lowest.begin(10, 1.0f);

@@ -42,7 +42,7 @@ private:
   std::size_t wanted_ = 0;
   float scale_ = 1;  // of bounds, so that a usual one is 1
   float highest_ = 0;
-  std::array<std::uint16_t, steps> count_{};  // of bounds of each step
+  std::array<std::uint32_t, steps> count_{};  // of bounds of each step
   std::size_t last_ = 0;                      // step that may hold wanted ones
   std::size_t within_ = 0;                    // up to the last step
 };
