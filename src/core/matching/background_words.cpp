@@ -65,7 +65,7 @@ std::shared_ptr<const NearestWord> describedThings(const Settings& settings, int
   for (const auto& one : of_things) values.insert(values.end(), one.begin(), one.end());
   if (values.empty()) return nullptr;
   return std::make_shared<const NearestWord>(QuantizedDescriptors(DescriptorMatrix(std::move(values), shot_size)),
-                                             true);
+                                             SearchEffort::glance());
 }
 
 /// The values of all settings that the words depend on.

@@ -22,13 +22,14 @@ bool searchesExactly(SearchKind search, std::size_t words) {
 }
 
 struct Matcher::Index : NearestWord {
-  using NearestWord::NearestWord;
+  Index(SearchedWords words, SearchKind search)
+      : NearestWord(words, searchesExactly(search, words.rows()) ? SearchEffort::exact() : SearchEffort::thorough()) {}
 };
 
 Matcher::Matcher(DescriptorMatrix words, SearchKind search)
-    : index_(std::make_unique<Index>(std::move(words), searchesExactly(search, words.rows()))) {}
+    : index_(std::make_unique<Index>(std::move(words), search)) {}
 Matcher::Matcher(QuantizedDescriptors words, SearchKind search)
-    : index_(std::make_unique<Index>(std::move(words), searchesExactly(search, words.rows()))) {}
+    : index_(std::make_unique<Index>(std::move(words), search)) {}
 Matcher::~Matcher() = default;
 Matcher::Matcher(Matcher&&) noexcept = default;
 Matcher& Matcher::operator=(Matcher&&) noexcept = default;

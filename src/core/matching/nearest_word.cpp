@@ -16,9 +16,7 @@ namespace {
 constexpr float rounding = 1e-4f;              // above the relative error of single precision distances
 constexpr std::size_t tile_blocks = 16;        // whose codes stay in the cache while a batch of queries passes
 constexpr std::size_t words_of_cluster = 128;  // about
-constexpr std::size_t least_visited = 24, most_visited = 80;  // clusters, about; an eighth of them in between
-constexpr std::size_t least_kept = 160, most_kept = 256;      // of the words of clusters; a 256th of all in between
-constexpr std::size_t centers_sampled = 8;                    // every one of this many
+constexpr std::size_t centers_sampled = 8;     // every one of this many
 
 constexpr float nothing = std::numeric_limits<float>::infinity();
 
@@ -38,14 +36,14 @@ void estimate(WordCodes::CodedQuery& query) {
 
 }  // namespace
 
-NearestWord::NearestWord(SearchedWords words, bool exact, const std::vector<std::uint32_t>& group_of_word,
-                         std::size_t groups)
-    : words_(std::move(words)), groups_(groups) {
+NearestWord::NearestWord(SearchedWords words, const SearchEffort& effort,
+                         const std::vector<std::uint32_t>& group_of_word, std::size_t groups)
+    : words_(std::move(words)), effort_(effort), groups_(groups) {
   words_.checkHistograms();
   if (words_.rows() == 0) return;
   codes_ = WordCodes(words_);
   const std::vector<CodedVector> codes = codes_.encode(words_);
-  clusters_ = WordClusters(codes, exact ? 1 : words_.rows() / words_of_cluster);
+  clusters_ = WordClusters(codes, effort.all ? 1 : words_.rows() / words_of_cluster);
   const std::vector<std::uint32_t>& order = clusters_.order();
   table_ = CodeTable(order.size());
   for (std::size_t slot = 0; slot < order.size(); ++slot) {
@@ -95,6 +93,27 @@ void NearestWord::measureLikelyOfGroups(Search& search, Workspace& work) const {
   for (const auto& [bound, slot] : likely) {
     if (bound > merged_.highestWithin(limitOf(search, groupOf(slot)))) break;
     remember(search, slot, chiSquaredFast(search.histogram, wordAt(slot, work.words[0]), words_.cols()));
+  }
+}
+
+/// Of each group only some words, those of the lowest bounds: merged bins keep nearly all of a distance.
+void NearestWord::keepLowestOfGroups(Search& search, Workspace& work) const {
+  LowestBounds& found = search.found;
+  std::vector<std::pair<float, std::uint32_t>>& lowest = work.likely;  // bounds and slots, group by group, ascending
+  lowest.assign(groups_ * effort_.measured, {nothing, 0});
+  for (std::size_t i = 0; i < found.slots.size(); ++i) {
+    auto* of_group = &lowest[groupOf(found.slots[i]) * effort_.measured];
+    std::pair<float, std::uint32_t> one{found.bounds[i], found.slots[i]};
+    for (std::size_t k = 0; k < effort_.measured; ++k) {
+      if (one < of_group[k]) std::swap(one, of_group[k]);
+    }
+  }
+  found.slots.clear();
+  found.bounds.clear();
+  for (const auto& [bound, slot] : lowest) {
+    if (bound == nothing) continue;
+    found.slots.push_back(slot);
+    found.bounds.push_back(bound);
   }
 }
 
@@ -180,7 +199,7 @@ void NearestWord::visit(std::size_t first_block, std::size_t blocks, Search* con
 
 /// How many words of clusters are looked at closer.
 std::size_t NearestWord::mostKept() const {
-  return std::clamp(words_.rows() / 256, least_kept, most_kept);
+  return std::clamp(words_.rows() / effort_.words_for_each, effort_.least_kept, effort_.most_kept);
 }
 
 void NearestWord::finish(Search& search, Match* matches, Workspace& work) const {
@@ -192,6 +211,7 @@ void NearestWord::finish(Search& search, Match* matches, Workspace& work) const 
   const auto highestWithin = [&](float distance) { return exact() ? merged_.highestWithin(distance) : distance; };
   measureLikelyOfGroups(search, work);
   dropHopeless(search, highestWithin);
+  if (!exact() && effort_.measured > 0) keepLowestOfGroups(search, work);
   measurePromising(search, highestWithin, work);
   dropHopeless(search, [](float distance) { return distance; });
   work.nearest.assign(groups_, {std::numeric_limits<double>::infinity(), 0});
@@ -207,7 +227,7 @@ void NearestWord::finish(Search& search, Match* matches, Workspace& work) const 
   }
   for (std::size_t group = 0; group < groups_; ++group) {
     const auto& [distance, word] = work.nearest[group];
-    matches[group] = {0, word, std::isinf(distance) || exact() ? float(distance) : float(distanceOf(word))};
+    matches[group] = {0, word, float(distance)};
   }
 }
 
@@ -243,7 +263,8 @@ void NearestWord::chooseClusters(std::size_t first, std::size_t count, Workspace
     distances[q] = &work.centers[q * centers.units.size()];
   }
   codeDistances(queries, centers, 0, centers.blocks(), distances);
-  const std::size_t visited = std::clamp(clusters_.size() / 8, least_visited, most_visited);
+  const std::size_t visited =
+      std::clamp(clusters_.size() / effort_.clusters_for_each, effort_.least_visited, effort_.most_visited);
   for (std::size_t q = 0; q < count; ++q) {
     work.sorted.clear();
     for (std::size_t c = 0; c < clusters_.size(); c += centers_sampled) work.sorted.push_back(distances[q][c]);

@@ -16,6 +16,24 @@
 
 namespace sks {
 
+/// How much of its words a search looks at.
+struct SearchEffort {
+  bool all = true;  ///< and the nearest one is found for certain; else in clusters of words, as follows
+  std::size_t clusters_for_each = 8;                  ///< that is visited, of the number of clusters; at least and at
+  std::size_t least_visited = 24, most_visited = 80;  ///< most so many
+  std::size_t words_for_each = 256;                   ///< that is looked at closer, of the number of words; at least
+  std::size_t least_kept = 160, most_kept = 256;      ///< and at most so many
+  std::size_t measured = 0;  ///< most words of a group whose full distances are computed; 0: as may be the nearest
+
+  static SearchEffort exact() { return {}; }
+  /// Nearly all of the nearest words are found.
+  static SearchEffort thorough() { return {false}; }
+  /// About one in fifty is missed, in half of the time.
+  static SearchEffort quick() { return {false, 13, 24, 80, 400, 160, 256, 4}; }
+  /// For words of which it matters only that there is some as near.
+  static SearchEffort glance() { return {false, 8, 8, 8, 256, 32, 32, 4}; }
+};
+
 /// Search for the codewords that are nearest under chi squared: coarse lower bounds of all words, finer ones of those
 /// that can still win, full distances of the few that are left. Exact; or, for large codebooks, only among the words of
 /// the clusters whose centers are nearest, of which those of the lowest bounds are looked at closer. Words may belong
@@ -50,7 +68,7 @@ public:
 
   /// @param group_of_word below `groups`; empty: all belong to one
   /// @throws Error(bad_data) naming word and bin for a value that is negative or not finite
-  NearestWord(SearchedWords words, bool exact, const std::vector<std::uint32_t>& group_of_word = {},
+  NearestWord(SearchedWords words, const SearchEffort& effort, const std::vector<std::uint32_t>& group_of_word = {},
               std::size_t groups = 1);
 
   const SearchedWords& words() const { return words_; }
@@ -65,13 +83,14 @@ public:
                           const float* limits = nullptr) const;
 
 private:
-  bool exact() const { return clusters_.size() == 1; }
+  bool exact() const { return effort_.all || clusters_.size() == 1; }
   std::uint32_t groupOf(std::uint32_t slot) const { return groups_ == 1 ? 0 : group_of_slot_[slot]; }
   /// Its bins, perhaps in the buffer.
   const float* wordAt(std::uint32_t slot, std::vector<float>& buffer) const;
   void remember(Search& search, std::uint32_t slot, float distance) const;
   void measureLikely(Search& search, std::uint32_t slot, float bound, Workspace& work) const;
   void measureLikelyOfGroups(Search& search, Workspace& work) const;
+  void keepLowestOfGroups(Search& search, Workspace& work) const;
   float limitOfTile(const Search& search, std::size_t first_block) const;
   template <typename HighestWithin>
   void dropHopeless(Search& search, HighestWithin&& highest_within) const;
@@ -90,6 +109,7 @@ private:
   void finish(Search& search, Match* matches, Workspace& work) const;
 
   SearchedWords words_;
+  SearchEffort effort_;
   WordCodes codes_;
   WordClusters clusters_;
   CodeTable table_;  // a code for each slot of the clusters

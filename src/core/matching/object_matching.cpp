@@ -49,7 +49,8 @@ ObjectMatcher::ObjectMatcher(const Codebook& codebook) {
     group_of_word.push_back(group_of_object[codebook.views[word.view].object]);
   }
   const bool exact = searchesExactly(SearchKind::automatic, codebook.words.size());
-  index_ = std::make_shared<NearestWord>(codebook.descriptors, exact, group_of_word, objects_);
+  index_ = std::make_shared<NearestWord>(codebook.descriptors, exact ? SearchEffort::exact() : SearchEffort::quick(),
+                                         group_of_word, objects_);
 }
 
 std::vector<Match> ObjectMatcher::match(const DescriptorMatrix& queries, double ambiguity, int threads,

@@ -10,9 +10,11 @@
 
 namespace sks {
 
-/// Of each object the four fifths of the candidates that fit the scene best after some rounds of ICP with few points:
-/// by then right ones stand out. Best first; their poses are as they were. The same for any number of threads.
-std::vector<PoseCandidate> mostPromisingCandidates(std::vector<PoseCandidate> candidates, const VerifiedModels& models,
-                                                   const SceneView& scene, const Settings& settings, int threads);
+/// Of each object the four fifths of the candidates that fit the scene best after some rounds of ICP with few points,
+/// without those whose rough evidence is hopelessly small: by then right ones stand out. Best first; their poses are as
+/// they were. The same for any number of threads.
+std::vector<PoseCandidate> mostPromisingCandidates(std::vector<PoseCandidate> candidates, const PoseExaminer& examiner,
+                                                   const VerifiedModels& models, const SceneView& scene,
+                                                   const Settings& settings, int threads);
 
 }  // namespace sks

@@ -82,7 +82,8 @@ private:
   }
 
   void look(const Eigen::Isometry3d& T, std::uint32_t view) {
-    const double pre_score = roughSupport(models_.rough[view], scene_, T).scoreWithoutVotes();
+    const double pre_score =
+        roughSupport(models_.rough[view], scene_, T, RoughLimits(), best_.pre_score).scoreWithoutVotes();
     if (pre_score <= best_.pre_score) return;
     best_.view = view;
     best_.T_scene_model = T;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/surface/angular_spacing.hpp"
 #include "core/verification/refinement.hpp"
 #include "core/verification/turned_poses.hpp"
 
@@ -18,7 +19,6 @@ constexpr double color_gain = 1.8;      // of evidence: what right poses lose by
 constexpr std::size_t first_points = 250, last_points = 1500;  // examined to choose between poses, and of the chosen
 constexpr double least_promising = 0.5;  // evidence of a turned pose before its fit, beside that of the pose itself
 constexpr double standing_density = 2;   // of votes: what it is worth that something stands alone there
-constexpr double well_sampled = 4;       // spacings of points within the radius of a normal
 
 constexpr int fine = 8;  // times as many points, of all sides, fit the pose that is told in the end
 
@@ -37,12 +37,6 @@ double fractionOf(const PoseEvidence& pose) {
 /// The fraction of all that faces the sensor that is confirmed.
 double coverageOf(const PoseEvidence& pose) {
   return pose.supported / (pose.facing + prior_area);
-}
-
-/// The evidence grows with the fraction of the visible surface that is confirmed, with its weighted area, with the
-/// fraction of all that faces the sensor, and with the votes for the position.
-double evidenceOf(const PoseEvidence& pose, double density) {
-  return fractionOf(pose) * std::sqrt(pose.weighted_supported / area_unit * coverageOf(pose)) * std::cbrt(density);
 }
 
 }  // namespace
@@ -95,10 +89,32 @@ PoseExaminer::PoseExaminer(const VerifiedModels& models, const SceneView& scene,
   }
 }
 
-Examined PoseExaminer::examineAlongRays(Hypothesis hypothesis) const {
+double PoseExaminer::roughEvidence(std::uint32_t object, std::uint32_t view, bool stands,
+                                   const Eigen::Isometry3d& T_scene_model, const RoughSupport& support) const {
+  const Eigen::Vector3f center = (T_scene_model * codebook_.views[view].center().cast<double>()).cast<float>();
+  const double resolution = settings_.training.surface_resolution;
+  const double area = double(models_.rough[view].stride) * resolution * resolution;
   PoseEvidence pose;
-  hypothesis.evidence = evidenceAt(hypothesis, pose, first_points, CorrespondenceSearch::along_ray);
-  return {std::move(hypothesis), std::move(pose.confirming), {}};
+  pose.facing = area * support.facing;
+  pose.supported = area * support.agreement;
+  pose.weighted_visible = area * support.visible;
+  pose.weighted_supported = area * support.supported;
+  return evidenceOf(pose, view, stands, center, densities_[object] ? densities_[object]->at(center) : 0);
+}
+
+Examined PoseExaminer::examineAlongRays(Hypothesis hypothesis) const {
+  const VerificationSettings& verification = settings_.verification;
+  RoughLimits limits;
+  limits.distance = float(verification.support_distance);
+  limits.agreement = float(std::cos(verification.support_angle));
+  limits.occlusion = float(verification.occlusion_distance);
+  limits.color_slack = 1;
+  limits.passes_planes = true;
+  place(hypothesis);
+  const RoughSupport support = roughSupport(models_.rough[hypothesis.view], scene_, hypothesis.T_scene_model, limits);
+  hypothesis.evidence =
+      roughEvidence(hypothesis.object, hypothesis.view, hypothesis.stands, hypothesis.T_scene_model, support);
+  return {std::move(hypothesis), {}, {}};
 }
 
 Examined PoseExaminer::examineRoughly(Hypothesis hypothesis) const {
@@ -199,6 +215,16 @@ Hypothesis PoseExaminer::finished(const Hypothesis& hypothesis) const {
 double PoseExaminer::evidenceAt(Hypothesis& hypothesis, PoseEvidence& pose, std::size_t most_points,
                                 CorrespondenceSearch search) const {
   const TrainingView& view = codebook_.views[hypothesis.view];
+  place(hypothesis);
+  pose = examinePose(view, models_.weights[hypothesis.view], scene_, settings_, hypothesis.T_scene_model, most_points,
+                     search);
+  const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();
+  return evidenceOf(pose, hypothesis.view, hypothesis.stands, center, hypothesis.density);
+}
+
+/// The object's box in the pose, and the votes for its centre.
+void PoseExaminer::place(Hypothesis& hypothesis) const {
+  const TrainingView& view = codebook_.views[hypothesis.view];
   hypothesis.T_scene_box = hypothesis.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
   hypothesis.box_size = view.extent().cast<double>();
   const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();
@@ -206,11 +232,16 @@ double PoseExaminer::evidenceAt(Hypothesis& hypothesis, PoseEvidence& pose, std:
     hypothesis.density = density->at(center);
     hypothesis.votes = density->count(center);
   }
-  pose = examinePose(view, models_.weights[hypothesis.view], scene_, settings_, hypothesis.T_scene_model, most_points,
-                     search);
-  const double gain = scene_.comparesColor(view) ? color_gain : 1;
-  return gain * sampling(center) *
-         evidenceOf(pose, hypothesis.stands ? std::max(standing_density, hypothesis.density) : hypothesis.density);
+}
+
+/// The evidence grows with the fraction of the visible surface that is confirmed, with its weighted area, with the
+/// fraction of all that faces the sensor, and with the votes for the position.
+double PoseExaminer::evidenceOf(const PoseEvidence& pose, std::uint32_t view, bool stands,
+                                const Eigen::Vector3f& center, double density) const {
+  if (stands) density = std::max(standing_density, density);
+  const double gain = scene_.comparesColor(codebook_.views[view]) ? color_gain : 1;
+  return gain * sampling(center) * fractionOf(pose) *
+         std::sqrt(pose.weighted_supported / area_unit * coverageOf(pose)) * std::cbrt(density);
 }
 
 SightLines PoseExaminer::sightLines(const Hypothesis& hypothesis) const {
@@ -222,8 +253,7 @@ SightLines PoseExaminer::sightLines(const Hypothesis& hypothesis) const {
 /// of the range, and what they are worth together with its root.
 double PoseExaminer::sampling(const Eigen::Vector3f& position) const {
   const double range = double((position - scene_.surface.sensor_origin).norm());
-  const double spacing = range * double(scene_.range_image.spacing());
-  return spacing > 0 ? std::min(1.0, settings_.surface.normal_radius / (well_sampled * spacing)) : 1;
+  return samplingAt(range, double(scene_.range_image.spacing()), settings_.surface.normal_radius);
 }
 
 }  // namespace sks

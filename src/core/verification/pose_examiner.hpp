@@ -59,7 +59,12 @@ public:
   PoseExaminer(const VerifiedModels& models, const SceneView& scene, const std::vector<std::vector<Vote>>& spaces,
                const Settings& settings);
 
-  /// A first look, along the sensor's rays: evidence without sight lines.
+  /// The evidence of a pose of a view by a quick look: with wide tolerances more than it will have, as a rule.
+  /// @param stands as in Hypothesis
+  double roughEvidence(std::uint32_t object, std::uint32_t view, bool stands, const Eigen::Isometry3d& T_scene_model,
+                       const RoughSupport& support) const;
+  /// A first look at few points, along the sensor's rays: evidence without sight lines. Nothing is told of what
+  /// confirms it.
   Examined examineAlongRays(Hypothesis hypothesis) const;
   /// The evidence of a pose that is about right, to choose between poses.
   Examined examineRoughly(Hypothesis hypothesis) const;
@@ -82,6 +87,9 @@ private:
   std::vector<Hypothesis> turnedAround(const Hypothesis& hypothesis) const;
   double evidenceAt(Hypothesis& hypothesis, PoseEvidence& pose, std::size_t most_points,
                     CorrespondenceSearch search) const;
+  void place(Hypothesis& hypothesis) const;
+  double evidenceOf(const PoseEvidence& pose, std::uint32_t view, bool stands, const Eigen::Vector3f& center,
+                    double density) const;
   SightLines sightLines(const Hypothesis& hypothesis) const;
   double sampling(const Eigen::Vector3f& position) const;
 

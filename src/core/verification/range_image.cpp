@@ -7,28 +7,14 @@
 
 #include <Eigen/Geometry>
 
+#include "core/surface/angular_spacing.hpp"
+
 namespace sks {
 namespace {
 
 constexpr double most_cells = 1 << 20;
-constexpr std::size_t spacing_samples = 500;
 constexpr std::size_t direction_samples = 4096;
 constexpr float spacings_per_cell = 2;  // few cells within a surface stay empty
-
-/// Median angle between neighbouring points [rad]; points without a neighbour in reach count as that far apart.
-float angularSpacing(const Surface& scene, float radius) {
-  std::vector<PointGrid::Run> runs;
-  std::vector<float> angles;
-  for (std::size_t i = 0; i < scene.size(); i += scene.size() / spacing_samples + 1) {
-    float nearest = radius * radius;
-    scene.forEachNeighbor(scene.point(i), radius, runs, [&](std::uint32_t j, float squared) {
-      if (j != i) nearest = std::min(nearest, squared);
-    });
-    angles.push_back(std::sqrt(nearest) / std::max((scene.point(i) - scene.sensor_origin).norm(), radius));
-  }
-  std::nth_element(angles.begin(), angles.begin() + angles.size() / 2, angles.end());
-  return angles[angles.size() / 2];
-}
 
 /// Where most points lie as seen from the sensor, from a sample of them.
 Eigen::Vector3f viewDirection(const Surface& scene) {

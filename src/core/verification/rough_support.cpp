@@ -21,13 +21,10 @@
 #define SKS_ROUGH_SUPPORT_ONCE
 namespace sks {
 
-/// What the sensor saw in the direction of a placed point of the surface.
-enum class RoughSight : int { nothing_to_say, unmeasured, missed, confirmed };
-
-struct RoughLimits {
-  float distance = 0.015f;  // [m] rough poses are that far off
-  float agreement = 0.7f;   // cosine, about 45 degrees
-  float occlusion = 0.02f;  // [m]
+/// What the looks along the rays to a sample's points say.
+struct RoughLooks {
+  float points = 0, facing = 0;      ///< as in RoughSupport
+  float visible = 0, confirmed = 0;  ///< weights; the latter as if all colours agreed
 };
 
 }  // namespace sks
@@ -38,15 +35,15 @@ namespace sks {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// @param sights,cells of each point of the sample; both are padded as it is
-void lookRoughlyImpl(const SurfaceSample& sample, const RangeImage& image, const RigidRows& T, std::int32_t* sights,
-                     std::int32_t* cells) {
+/// @param weights of the points, zeros for the padding
+/// @param cells of the confirmed points, -1 of others; padded as the sample is
+RoughLooks lookRoughlyImpl(const SurfaceSample& sample, const float* weights, const RangeImage& image,
+                           const RoughLimits& limits, const RigidRows& T, std::int32_t* cells) {
   const Lanes d;
   const hn::RebindToSigned<Lanes> di;
-  const RoughLimits limits;
   const auto set = [&](float value) { return hn::Set(d, value); };
-  const auto sight = [&](RoughSight s) { return hn::Set(di, std::int32_t(s)); };
   const float* values = &image.cells().data()->x;
+  auto facing_points = hn::Zero(d), confirmed_points = hn::Zero(d), visible = hn::Zero(d), confirmed_sum = hn::Zero(d);
   for (std::size_t i = 0; i < sample.size; i += hn::Lanes(d)) {
     const auto load = [&](const std::vector<float>& v) { return hn::LoadU(d, v.data() + i); };
     const Vector3 place = mapped(T, {load(sample.x), load(sample.y), load(sample.z)}, 1);
@@ -60,20 +57,28 @@ void lookRoughlyImpl(const SurfaceSample& sample, const RangeImage& image, const
     const auto look = [&](int k) { return hn::GatherIndex(d, values + k, at); };
     const Vector3 found{look(0), look(1), look(2)}, found_normal{look(3), look(4), look(5)};
     const Vector3 apart = found - place;
-    const auto confirmed = hn::And(seen, hn::And(hn::Gt(normal.dot(found_normal), set(limits.agreement)),
-                                                 hn::Lt(apart.dot(apart), set(limits.distance * limits.distance))));
+    const auto near = hn::And(seen, hn::And(hn::Gt(normal.dot(found_normal), set(limits.agreement)),
+                                            hn::Le(apart.dot(apart), set(limits.distance * limits.distance))));
+    const auto confirmed = hn::And(facing, near);
     const auto nearest = look(6), farthest = look(7);
     const auto measured = hn::And(seen, hn::Ge(farthest, hn::Zero(d)));
     const auto behind = hn::Gt(range, hn::Add(farthest, set(limits.occlusion)));
     const auto before = hn::Lt(range, hn::Sub(nearest, set(limits.occlusion)));
     const auto hidden = hn::And(behind, hn::Not(before));
-    const auto choose = [&](auto mask, auto yes, auto no) { return hn::IfThenElse(hn::RebindMask(di, mask), yes, no); };
-    auto result = choose(hidden, sight(RoughSight::nothing_to_say), sight(RoughSight::missed));
-    result = choose(measured, result, sight(RoughSight::unmeasured));
-    result = choose(confirmed, sight(RoughSight::confirmed), result);
-    hn::StoreU(choose(facing, result, sight(RoughSight::nothing_to_say)), di, sights + i);
-    hn::StoreU(cell, di, cells + i);
+    const auto weight = hn::IfThenElseZero(facing, hn::LoadU(d, weights + i));
+    const auto missed = hn::IfThenElse(hidden, hn::Zero(d), weight);
+    const auto unconfirmed = hn::IfThenElse(measured, missed, hn::Mul(set(float(unmeasured)), weight));
+    visible = hn::Add(visible, hn::IfThenElse(confirmed, weight, unconfirmed));
+    confirmed_sum = hn::Add(confirmed_sum, hn::IfThenElseZero(confirmed, weight));
+    facing_points = hn::Add(facing_points, hn::IfThenElseZero(facing, set(1)));
+    confirmed_points = hn::Add(confirmed_points, hn::IfThenElseZero(confirmed, set(1)));
+    hn::StoreU(hn::IfThenElse(hn::RebindMask(di, confirmed), cell, hn::Set(di, -1)), di, cells + i);
   }
+  const auto sum = [&](auto lanes) { return hn::GetLane(hn::SumOfLanes(d, lanes)); };
+  RoughLooks looks;
+  looks.points = sum(confirmed_points), looks.facing = sum(facing_points);
+  looks.visible = sum(visible), looks.confirmed = sum(confirmed_sum);
+  return looks;
 }
 
 }  // namespace HWY_NAMESPACE
@@ -88,7 +93,6 @@ HWY_EXPORT(lookRoughlyImpl);
 namespace {
 
 constexpr std::size_t rough_points = 80, most_points = 2 * rough_points;
-constexpr float rough_color_slack = 1.5f;  // of the tolerance: prints are off by as much as the pose
 
 /// Between `rough_points` and `most_points` are taken.
 std::size_t roughStride(const TrainingView& view) {
@@ -99,7 +103,7 @@ std::size_t roughStride(const TrainingView& view) {
 
 RoughSurface::RoughSurface(const TrainingView& view) {
   SurfaceWeigher weigher(view);
-  const std::size_t stride = roughStride(view);
+  stride = roughStride(view);
   sample.take(view, stride);
   for (std::size_t i = 0; i < view.surface_points.size(); i += stride) {
     const SurfaceWeight weight = weigher.at(i);
@@ -107,6 +111,8 @@ RoughSurface::RoughSurface(const TrainingView& view) {
     shape_and_color.push_back(weight.shape_and_color);
     if (!view.surface_colors.empty()) colors.push_back(view.surface_colors[i]);
   }
+  for (auto* weights : {&shape, &shape_and_color}) weights->resize(weights->size() + PointGrid::simd_padding);
+  object_size = view.extent().maxCoeff();
 }
 
 double RoughSupport::scoreWithoutVotes() const {
@@ -115,28 +121,37 @@ double RoughSupport::scoreWithoutVotes() const {
   return points < fewest ? 0 : supported / (visible + prior) * std::sqrt(supported);
 }
 
-RoughSupport roughSupport(const RoughSurface& surface, const SceneView& scene, const Eigen::Isometry3d& T_scene_model) {
+RoughSupport roughSupport(const RoughSurface& surface, const SceneView& scene, const Eigen::Isometry3d& T_scene_model,
+                          const RoughLimits& limits, double least_score) {
   RoughSupport support;
   const bool compares_color = scene.color_tolerance > 0 && !surface.colors.empty();
   const std::vector<float>& weights = compares_color ? surface.shape_and_color : surface.shape;
-  const float color_tolerance = rough_color_slack * scene.color_tolerance;
   if (scene.range_image.cells().empty()) return support;
-  std::array<std::int32_t, most_points + PointGrid::simd_padding> sights, cells;
+  std::array<std::int32_t, most_points + PointGrid::simd_padding> cells;
   const RigidRows T = T_scene_model.matrix().topRows<3>().cast<float>();
-  HWY_DYNAMIC_DISPATCH(lookRoughlyImpl)(surface.sample, scene.range_image, T, sights.data(), cells.data());
+  const RoughLooks looks =
+      HWY_DYNAMIC_DISPATCH(lookRoughlyImpl)(surface.sample, weights.data(), scene.range_image, limits, T, cells.data());
+  support.points = int(looks.points), support.facing = int(looks.facing);
+  support.visible = double(looks.visible), support.supported = double(looks.confirmed);
+  support.agreement = double(looks.points);
+  if (!(compares_color || limits.passes_planes) || support.scoreWithoutVotes() <= least_score) return support;
+  support.supported = support.agreement = 0;
+  const float color_tolerance = limits.color_slack * scene.color_tolerance;
   for (std::size_t i = 0; i < surface.sample.size; ++i) {
-    const RoughSight sight = RoughSight(sights[i]);
-    if (sight == RoughSight::nothing_to_say) continue;
-    support.visible += sight == RoughSight::unmeasured ? unmeasured * weights[i] : double(weights[i]);
-    if (sight != RoughSight::confirmed) continue;
-    ++support.points;
+    if (cells[i] < 0) continue;
+    const std::uint32_t point = scene.range_image.pointAt(std::size_t(cells[i]));
+    if (limits.passes_planes && scene.onLargerPlane(point, surface.object_size)) {
+      support.visible -= double(weights[i]);
+      continue;
+    }
     double agreement = 1;
     if (compares_color) {
-      const Eigen::Vector3f seen = scene.colorAt(scene.range_image.pointAt(std::size_t(cells[i])));
-      agreement = colorAgreement(squaredColorDifference(surface.colors[i], seen), color_tolerance);
+      agreement = colorAgreement(squaredColorDifference(surface.colors[i], scene.colorAt(point)), color_tolerance);
     }
-    support.supported += agreement * weights[i];
+    support.agreement += agreement;
+    support.supported += agreement * double(weights[i]);
   }
+  support.visible = std::max(support.visible, support.supported);  // whatever rounding does
   return support;
 }
 

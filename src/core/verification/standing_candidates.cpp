@@ -61,7 +61,8 @@ std::vector<PoseCandidate> standingCandidates(const VerifiedModels& models, cons
             placed(model, thing, float(2 * EIGEN_PI * k / upright_rotations), scene.surface.sensor_origin);
         candidate.view = nearestView(*model.surface, scene.surface.sensor_origin, candidate.T_scene_model);
         candidate.pre_score =
-            roughSupport(models.rough[candidate.view], scene, candidate.T_scene_model).scoreWithoutVotes();
+            roughSupport(models.rough[candidate.view], scene, candidate.T_scene_model, RoughLimits(), best.pre_score)
+                .scoreWithoutVotes();
         if (candidate.pre_score > best.pre_score) best = candidate;
       }
       best.stands = true;

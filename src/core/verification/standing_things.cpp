@@ -68,17 +68,21 @@ struct Patch {
 
 /// Patches of points at a plane, by cell.
 std::vector<Patch> patchesAt(const Surface& scene, const Frame& frame) {
-  std::vector<std::pair<PatchCell, float>> heights;
+  std::vector<Patch> runs;  // of consecutive points: they lie side by side
   for (std::size_t i = 0; i < scene.size(); ++i) {
     const float height = frame.heightOf(scene.point(i));
-    if (std::abs(height) < near_plane) heights.push_back({frame.patchOf(scene.point(i)), height});
+    if (!(std::abs(height) < near_plane)) continue;
+    const PatchCell cell = frame.patchOf(scene.point(i));
+    if (runs.empty() || runs.back().cell != cell) runs.push_back({cell, 0, 0});
+    runs.back().sum += height;
+    ++runs.back().count;
   }
-  std::sort(heights.begin(), heights.end());
+  std::stable_sort(runs.begin(), runs.end(), [](const Patch& a, const Patch& b) { return a.cell < b.cell; });
   std::vector<Patch> patches;
-  for (const auto& [cell, height] : heights) {
-    if (patches.empty() || patches.back().cell != cell) patches.push_back({cell, 0, 0});
-    patches.back().sum += height;
-    ++patches.back().count;
+  for (const Patch& run : runs) {
+    if (patches.empty() || patches.back().cell != run.cell) patches.push_back({run.cell, 0, 0});
+    patches.back().sum += run.sum;
+    patches.back().count += run.count;
   }
   patches.erase(
       std::remove_if(patches.begin(), patches.end(), [](const Patch& p) { return p.count < fewest_of_patch; }),

@@ -19,7 +19,7 @@ constexpr double largest_claimed = 0.5;  // of the confirming points; else a hyp
 // Of the evidence that scores 0.5: what has less is not worth the last rounds, or a search for more than what is in
 // sight.
 constexpr double plausible_fraction = 0.5, lowest_fraction = 0.3;
-constexpr int most_examined = 8;   // hypotheses of one object at one position, with all they have
+constexpr int most_examined = 4;   // hypotheses of one object at one position, with all they have
 constexpr double color_doubt = 2;  // as many good hypotheses it takes to tell light from a wrong object
 
 /// Votes for the position of the hypothesis whose correspondences fit its pose.
@@ -130,8 +130,8 @@ std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector
       candidates.insert(candidates.end(), more.begin(), more.end());
     }
   }
-  candidates = mostPromisingCandidates(std::move(candidates), models_, scene, settings, threads);
   const PoseExaminer examiner(models_, scene, spaces, settings);
+  candidates = mostPromisingCandidates(std::move(candidates), examiner, models_, scene, settings, threads);
   const double half = settings.verification.half_evidence;
 
   std::vector<Examined> examined(candidates.size());
