@@ -10,7 +10,9 @@
 
 #include "core/descriptors/quantizer.hpp"
 #include "core/descriptors/shot.hpp"
+#include "core/matching/background_words.hpp"
 #include "core/pipeline/default_stages.hpp"
+#include "core/pipeline/repeated_words.hpp"
 #include "core/pipeline/scene_description.hpp"
 #include "core/settings/name_text.hpp"
 #include "core/settings/threads.hpp"
@@ -72,6 +74,7 @@ Eigen::Isometry3f motionOf(const TrainingView& view) {
 /// What a training cloud becomes.
 struct PreparedView {
   std::string object;
+  bool rendered = false;
   TrainingView view;
   Keypoints keypoints;
   Descriptors descriptors;
@@ -145,6 +148,7 @@ public:
   Codebook finish() {
     codebook_.settings.descriptor.type = codebook_.descriptor_type;
     codebook_.descriptors = rows_.release();
+    if (hasBackground(codebook_, codebook_.settings)) codebook_.background = backgroundDescriptors(codebook_.settings);
     return std::move(codebook_);
   }
 
@@ -162,7 +166,8 @@ private:
     const Cloud cloud = usablePoints(loaded, orientation, settings);
     checkSize(boxOf(sample, cloud));
     const Surface surface = prepareSurface(cloud, settings.surface, orientation, threads_);
-    PreparedView result{sample.object, viewOf(sample, surface, cloud), keypoints_->detect(surface, settings), {}};
+    PreparedView result{
+        sample.object, sample.rendered, viewOf(sample, surface, cloud), keypoints_->detect(surface, settings), {}};
     result.descriptors = described(*descriptors_, surface, result.keypoints, settings);
     if (result.descriptors.keypoints.empty() && !sample.rendered) {
       throw Error(ErrorCode::bad_data, "none of its " + std::to_string(result.keypoints.size()) +
@@ -201,12 +206,18 @@ private:
     if (known == codebook_.objects.end()) codebook_.objects.push_back(prepared.object);
     const Eigen::Isometry3f T = motionOf(prepared.view);
     const Descriptors& descriptors = prepared.descriptors;
+    const bool may_repeat = prepared.rendered && verifiesPoses(codebook_.settings);
     for (std::size_t row = 0; row < descriptors.keypoints.size(); ++row) {
-      addDescriptor(descriptors.values.row(row));
       Codeword word;
       word.view = std::uint32_t(codebook_.views.size());
       word.position = T * prepared.keypoints.positions[descriptors.keypoints[row]];
       word.frame = descriptors.frames[row] * T.linear().transpose();
+      const float* bins = descriptors.values.row(row);
+      if (may_repeat) {
+        if (repeated_.repeats(prepared.view.frame, word, bins, rows_)) continue;
+        repeated_.add(prepared.view.frame, word, std::uint32_t(codebook_.words.size()));
+      }
+      addDescriptor(bins);
       codebook_.words.push_back(word);
     }
     codebook_.views.push_back(std::move(prepared.view));
@@ -227,6 +238,7 @@ private:
   bool may_drop_color_ = false;
   Codebook codebook_;
   Quantizer rows_, shot_rows_;  // the second while colour may be dropped
+  RepeatedWords repeated_;      // of meshes
 };
 
 }  // namespace

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include <sks_detector/codebook.hpp>
+
+#include "core/descriptors/quantizer.hpp"
+
+namespace sks {
+
+/// Codewords of views that share a frame, to tell which of a further view say nothing new: the same place of the
+/// object, described alike. A sensor tells such words apart by its noise alone.
+class RepeatedWords {
+public:
+  /// Whether an earlier word of the frame is near in place, rotation and descriptor.
+  /// @param rows those of the words that were added
+  bool repeats(const std::string& frame, const Codeword& word, const float* bins, const Quantizer& rows);
+
+  /// @param index of the word, and of its row
+  void add(const std::string& frame, const Codeword& word, std::uint32_t index);
+
+private:
+  using Cell = std::tuple<int, int, int>;
+  struct Place {
+    Codeword word;
+    std::uint32_t index;
+  };
+
+  static Cell cellOf(const Codeword& word);
+
+  std::map<std::string, std::map<Cell, std::vector<Place>>> frames_;
+  std::vector<float> buffer_;
+};
+
+}  // namespace sks
