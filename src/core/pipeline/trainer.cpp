@@ -191,7 +191,11 @@ private:
     const Eigen::AlignedBox3f box = boxOf(sample, cloud);
     view.box_min = box.min();
     view.box_max = box.max();
-    for (const std::uint32_t i : thinnedIndices(surface, codebook_.settings.training.surface_resolution)) {
+    const std::vector<std::uint32_t> kept = thinnedIndices(surface, codebook_.settings.training.surface_resolution);
+    view.surface_points.reserve(kept.size());  // vectors that grow hold up to twice what they need
+    view.surface_normals.reserve(kept.size());
+    view.surface_colors.reserve(surface.hasColor() ? kept.size() : 0);
+    for (const std::uint32_t i : kept) {
       if (!surface.normal(i).allFinite()) continue;
       view.surface_points.push_back(T * surface.point(i));
       view.surface_normals.push_back(T.linear() * surface.normal(i));
