@@ -2,17 +2,14 @@
 #include "core/pipeline/repeated_words.hpp"
 
 #include <cmath>
-#include <cstdlib>
 
 #include "core/matching/chi_squared.hpp"
 
 namespace sks {
 namespace {
 
-const float same_place = std::getenv("SKS_R") ? std::atof(std::getenv("SKS_R")) : 0.01f;    // [m]
-const float same_distance = std::getenv("SKS_T") ? std::atof(std::getenv("SKS_T")) : 0.5f;  // chi squared
-const float same_rotation =
-    std::getenv("SKS_A") ? std::cos(std::atof(std::getenv("SKS_A")) / 57.29578) : 0.9659f;  // cosine of 15 degrees
+constexpr float same_distance = 0.5f;     // chi squared; the same place seen twice by a sensor differs by 0.8 and more
+constexpr float same_rotation = 0.9659f;  // cosine of 15 degrees
 
 float cosineBetween(const Eigen::Matrix3f& a, const Eigen::Matrix3f& b) {
   return 0.5f * (a.cwiseProduct(b).sum() - 1);
@@ -20,8 +17,8 @@ float cosineBetween(const Eigen::Matrix3f& a, const Eigen::Matrix3f& b) {
 
 }  // namespace
 
-RepeatedWords::Cell RepeatedWords::cellOf(const Codeword& word) {
-  const auto cell = [](float coordinate) { return int(std::floor(coordinate / same_place)); };
+RepeatedWords::Cell RepeatedWords::cellOf(const Codeword& word) const {
+  const auto cell = [](float coordinate) { return int(std::floor(coordinate / same_place_)); };
   return {cell(word.position.x()), cell(word.position.y()), cell(word.position.z())};
 }
 
@@ -36,7 +33,7 @@ bool RepeatedWords::repeats(const std::string& frame, const Codeword& word, cons
         const auto cell = known->second.find({x + dx, y + dy, z + dz});
         if (cell == known->second.end()) continue;
         for (const Place& place : cell->second) {
-          if ((place.word.position - word.position).squaredNorm() > same_place * same_place) continue;
+          if ((place.word.position - word.position).squaredNorm() > same_place_ * same_place_) continue;
           if (cosineBetween(place.word.frame, word.frame) < same_rotation) continue;
           rows.read(place.index, buffer_.data());
           if (chiSquaredFast(bins, buffer_.data(), rows.cols()) < same_distance) return true;

@@ -14,10 +14,13 @@
 
 namespace sks {
 
-/// Codewords of views that share a frame, to tell which of a further view say nothing new: the same place of the
-/// object, described alike. A sensor tells such words apart by its noise alone.
+/// Codewords of views of a mesh, to tell which of a further view say nothing new: the same place of the object,
+/// described so much alike that a sensor tells them apart by its noise alone.
 class RepeatedWords {
 public:
+  /// @param same_place how near two words of one place are at most [m]
+  explicit RepeatedWords(float same_place) : same_place_(same_place) {}
+
   /// Whether an earlier word of the frame is near in place, rotation and descriptor.
   /// @param rows those of the words that were added
   bool repeats(const std::string& frame, const Codeword& word, const float* bins, const Quantizer& rows);
@@ -32,8 +35,9 @@ private:
     std::uint32_t index;
   };
 
-  static Cell cellOf(const Codeword& word);
+  Cell cellOf(const Codeword& word) const;
 
+  float same_place_;
   std::map<std::string, std::map<Cell, std::vector<Place>>> frames_;
   std::vector<float> buffer_;
 };

@@ -21,6 +21,7 @@ namespace sks {
 namespace {
 
 constexpr std::size_t longest_stage_name = 100;  // of a descriptor stage
+constexpr float same_place = 0.5f;               // of the keypoints' spacing: what is nearer is one place
 constexpr std::size_t views_of_thread = 8;       // of meshes that are prepared before their words are added
 
 std::shared_ptr<const DescriptorStage> trainedDescriptors(const Stages& stages, DescriptorType type) {
@@ -95,7 +96,8 @@ public:
         keypoints_(stages.keypoints ? stages.keypoints : std::make_shared<const ConfiguredKeypoints>()),
         descriptors_(trainedDescriptors(stages, settings.descriptor.type)),
         rows_(descriptors_->size()),
-        shot_rows_(shot_size) {
+        shot_rows_(shot_size),
+        repeated_(same_place * float(settings.keypoints.grid_size)) {
     codebook_.name = name;
     codebook_.settings = settings;
     codebook_.descriptor_type = settings.descriptor.type;
