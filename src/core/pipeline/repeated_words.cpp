@@ -18,7 +18,7 @@ float cosineBetween(const Eigen::Matrix3f& a, const Eigen::Matrix3f& b) {
 }  // namespace
 
 RepeatedWords::Cell RepeatedWords::cellOf(const Codeword& word) const {
-  const auto cell = [](float coordinate) { return int(std::floor(coordinate / same_place_)); };
+  const auto cell = [this](float coordinate) { return int(std::floor(coordinate / same_place_)); };
   return {cell(word.position.x()), cell(word.position.y()), cell(word.position.z())};
 }
 
