@@ -74,7 +74,7 @@ TEST(BackgroundWords, AreHistogramsAndRemembered) {
 
 TEST(BackgroundWords, OfACodebookAreTakenWhereItsSettingsAreTheSame) {
   Codebook codebook;
-  codebook.background = QuantizedDescriptors(histograms(40, shot_size, 7));
+  codebook.background = quantized(histograms(40, shot_size, 7), shot_size);
   Settings settings;
   const auto kept = backgroundWords(codebook, settings);
   ASSERT_EQ(kept->words().rows(), 40u);
