@@ -10,6 +10,7 @@
 #include <sks_detector/stages/matching.hpp>
 #include <sks_detector/trainer.hpp>
 
+#include "core/keypoints/sparse_selection.hpp"
 #include "core/surface/sanitize.hpp"
 #include "io/dataset.hpp"
 #include "pair.hpp"

@@ -9,6 +9,7 @@
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/settings_file.hpp>
 
+#include "core/surface/color_space.hpp"
 #include "io/file.hpp"
 #include "io/image_file.hpp"
 #include "seed_texts.hpp"
@@ -76,6 +77,10 @@ void codebooks(const std::string& folder) {
   }
   sks::writeCodebook(corpus.path("two_words"), codebook);
   sks::writeCodebook(use.path("two_words"), codebook);
+  const auto gray = sks::toScaledLab({128, 128, 128});
+  for (sks::TrainingView& view : codebook.views)
+    view.surface_colors.assign(3, Eigen::Vector3f(gray[0], gray[1], gray[2]));
+  sks::writeCodebook(corpus.path("color_levels"), codebook);
 }
 
 void texts(const std::string& folder) {

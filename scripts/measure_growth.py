@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""How time, memory and accuracy grow with the number of objects: trains codebooks of the first N meshes of a data set, filled up
-with built-in objects and with variants of the meshes (larger and smaller, mirrored, in other colours), and detects in its
-scenes. Prints a table; F1 where all objects of the data set are trained. Needs python3-pil and python3-yaml."""
+"""How time, memory and accuracy grow with the number of objects: trains codebooks of the first N meshes of data sets, filled up
+with built-in objects and with variants of the meshes (larger and smaller, mirrored, in other colours), and detects in their
+scenes. Prints a table; F1 of each data set whose objects are all trained, and of a codebook of its objects alone. Writes
+growth.json for plot_growth.py. Needs python3-pil and python3-yaml."""
 import argparse
 import json
 import os
@@ -53,9 +54,23 @@ def write_variant(mesh, folder, scale, mirrored):
     return path
 
 
-def entries(data_set, folder, output):
-    """Training entries: the meshes of the data set, then what is made up, as often as one asks for the next."""
-    own = [dict(entry, cloud=os.path.join(folder, entry['cloud'])) for entry in data_set['training']]
+class DataSet:
+    """A data set file that trains meshes."""
+
+    def __init__(self, path):
+        with open(path, encoding='utf-8') as file:
+            content = yaml.safe_load(file)
+        self.path, self.name = path, content['name']
+        folder = os.path.dirname(os.path.abspath(path))
+        self.training = [dict(entry, cloud=os.path.join(folder, entry['cloud']), units=entry.get('units', content['units']))
+                         for entry in content['training']]
+        self.clouds = [os.path.join(folder, scene['cloud']) for scene in content['scenes']]
+        self.objects = {entry['object'] for entry in self.training}
+
+
+def entries(data_sets, output):
+    """Training entries: the meshes of the data sets, then what is made up, as often as one asks for the next."""
+    own = [entry for data_set in data_sets for entry in data_set.training]
     yield from own
     for name in BUILTIN:
         yield {'object': 'builtin_' + name, 'cloud': 'builtin:' + name, 'kind': 'mesh'}
@@ -64,7 +79,7 @@ def entries(data_set, folder, output):
             if entry['cloud'].endswith('.obj'):
                 made = f'{name}_{entry["object"]}'
                 mesh = write_variant(entry['cloud'], os.path.join(output, 'meshes', made), scale, mirrored)
-                yield {'object': made, 'cloud': mesh, 'kind': 'mesh'}
+                yield {'object': made, 'cloud': mesh, 'kind': 'mesh', 'units': entry['units']}
 
 
 class Run:
@@ -82,66 +97,98 @@ class Run:
         self.peak = usage.ru_maxrss / 1024  # KiB
 
 
-def measure(options, arguments, data_set, folder, count, training):
-    path = os.path.join(options.output, f'{count}.yaml')
-    with open(path, 'w', encoding='utf-8') as file:
-        yaml.safe_dump({'name': f'growth_{count}', 'units': data_set['units'], 'training': training}, file)
-    codebook = os.path.join(options.output, f'{count}.sks')
-    trained = Run([options.sks, 'train', '--dataset', path, '--output', codebook] + arguments)
-    clouds = [os.path.join(folder, scene['cloud']) for scene in data_set['scenes']]
-    times = os.path.join(options.output, f'{count}_times.json')
-    detect = [options.sks, 'detect', '--codebook', codebook, '--json', times] + arguments
-    # What loading takes is what the frames of a run do not.
-    first = min((Run(detect + clouds[:1]) for _ in range(options.repeat)), key=lambda run: run.seconds)
-    with open(times, encoding='utf-8') as file:
-        answer = json.load(file)['clouds'][0]['time_ms']['total'] / 1000
-    once, thrice = Run(detect + clouds), Run(detect + 3 * clouds)
-    row = {'objects': count, 'file_mb': os.path.getsize(codebook) / 1e6, 'train_s': trained.seconds, 'train_cpu_s': trained.cpu,
-           'train_mb': trained.peak, 'first_answer_s': first.seconds, 'loading_s': first.seconds - answer, 'first_mb': first.peak,
-           'frame_cpu_s': (thrice.cpu - once.cpu) / (2 * len(clouds))}
-    with open(times, encoding='utf-8') as file:
-        totals = sorted(cloud['time_ms']['total'] for cloud in json.load(file)['clouds'])
-    row['frame_ms'] = totals[len(totals) // 2]
-    trained_objects = {entry['object'] for entry in training}
-    if all(entry['object'] in trained_objects for entry in data_set['training']):
-        scores = os.path.join(options.output, f'{count}_scores.json')
-        Run([options.sks, 'evaluate', '--dataset', options.dataset, '--codebook', codebook, '--json', scores] + arguments)
+class Growth:
+    def __init__(self, options, arguments):
+        self._options, self._arguments = options, arguments
+
+    def _path(self, name):
+        return os.path.join(self._options.output, name)
+
+    def _train(self, name, training):
+        with open(self._path(name + '.yaml'), 'w', encoding='utf-8') as file:
+            yaml.safe_dump({'name': f'growth_{name}', 'units': 'm', 'training': training}, file)
+        return Run([self._options.sks, 'train', '--dataset', self._path(name + '.yaml'), '--output',
+                    self._path(name + '.sks')] + self._arguments)
+
+    def _detect(self, name, clouds):
+        """The run, and the milliseconds of its frames."""
+        times = self._path(name + '_times.json')
+        run = Run([self._options.sks, 'detect', '--codebook', self._path(name + '.sks'), '--json', times] + self._arguments +
+                  clouds)
+        with open(times, encoding='utf-8') as file:
+            return run, [cloud['time_ms']['total'] for cloud in json.load(file)['clouds']]
+
+    def _score(self, name, data_set):
+        scores = self._path(f'{name}_{data_set.name}.json')
+        Run([self._options.sks, 'evaluate', '--dataset', data_set.path, '--codebook', self._path(name + '.sks'), '--json',
+             scores] + self._arguments)
         with open(scores, encoding='utf-8') as file:
             result = json.load(file)
-        row.update(f1=result['f1'], average_precision=result['average_precision'],
-                   false_positives=result['false_positives'])
-    return row
+        return {key: result[key] for key in ('f1', 'average_precision', 'false_positives')}
+
+    def alone(self, data_set):
+        """What a codebook of a data set's objects alone scores in it."""
+        self._train(data_set.name, data_set.training)
+        return self._score(data_set.name, data_set)
+
+    def row(self, training, data_sets):
+        name, clouds, repeat = str(len(training)), data_sets[0].clouds, self._options.repeat
+        trained = self._train(name, training)
+        size = os.path.getsize(self._path(name + '.sks')) / 1e6
+        # What loading takes is what the frame of a run does not.
+        first, (answer,) = min((self._detect(name, clouds[:1]) for _ in range(repeat)), key=lambda run: run[0].seconds)
+        # Of all scenes twice over the second time: what a frame takes of a detector that has seen some.
+        once, _ = self._detect(name, clouds)
+        twice, frames = self._detect(name, 2 * clouds)
+        frames = sorted(frames[len(clouds):])
+        objects = {entry['object'] for entry in training}
+        return {'objects': len(training), 'file_mb': size, 'train_s': trained.seconds, 'train_cpu_s': trained.cpu,
+                'train_mb': trained.peak, 'loading_s': first.seconds - answer / 1000, 'first_answer_s': first.seconds,
+                'first_answer_cpu_s': first.cpu, 'first_mb': first.peak, 'detect_mb': twice.peak,
+                'frame_ms': frames[len(frames) // 2], 'frame_p95_ms': frames[int(0.95 * (len(frames) - 1))],
+                'frame_cpu_s': (twice.cpu - once.cpu) / len(clouds),
+                'scores': {d.name: self._score(name, d) for d in data_sets if d.objects <= objects}}
+
+
+def text(value):
+    return f'{value:>12d}' if isinstance(value, int) else f'{value:>12.3f}'
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, epilog='Other arguments go to sks: --set, --config.')
-    parser.add_argument('--dataset', required=True, help='data set file (YAML) that trains meshes')
+    parser.add_argument('--dataset', required=True, nargs='+',
+                        help='data set files (YAML) that train meshes; frames are timed in the scenes of the first')
     parser.add_argument('--output', required=True, help='folder for meshes, codebooks and growth.json')
     parser.add_argument('--objects', type=int, nargs='+', default=[1, 5, 21, 80], help='default: 1 5 21 80')
     parser.add_argument('--repeat', type=int, default=3, help='first answers, of which the fastest counts (default: 3)')
     parser.add_argument('--sks', default='sks', help='the command line (default: sks, from PATH)')
     options, arguments = parser.parse_known_args()
-    with open(options.dataset, encoding='utf-8') as file:
-        data_set = yaml.safe_load(file)
-    folder = os.path.dirname(os.path.abspath(options.dataset))
+    data_sets = [DataSet(path) for path in options.dataset]
+    if len(set().union(*(d.objects for d in data_sets))) < sum(len(d.objects) for d in data_sets):
+        sys.exit('two of the data sets have an object of one name')
     options.output = os.path.abspath(options.output)
     os.makedirs(options.output, exist_ok=True)
-    made, source, rows = [], entries(data_set, folder, options.output), []
-    columns = ['objects', 'file_mb', 'train_s', 'train_cpu_s', 'train_mb', 'loading_s', 'first_answer_s', 'first_mb', 'frame_ms',
-               'frame_cpu_s', 'f1', 'average_precision', 'false_positives']
-    print(' '.join(f'{column:>14}' for column in columns))
+    growth, made, source = Growth(options, arguments), [], entries(data_sets, options.output)
+    result = {'rows': [], 'alone': {}}
+    columns = ['objects', 'file_mb', 'train_s', 'train_cpu_s', 'train_mb', 'loading_s', 'first_answer_s', 'first_mb', 'detect_mb',
+               'frame_ms', 'frame_p95_ms', 'frame_cpu_s']
+    print(' '.join(f'{column:>12}' for column in [column.replace('_answer', '') for column in columns]))
     for count in options.objects:
         while len(made) < count:
             entry = next(source, None)
             if entry is None:
                 sys.exit(f'there are only {len(made)} objects')
             made.append(entry)
-        rows.append(measure(options, arguments, data_set, folder, count, made[:count]))
-        cells = [rows[-1].get(column) for column in columns]
-        print(' '.join(f'{"-":>14}' if cell is None else f'{cell:14.3f}' if isinstance(cell, float) else f'{cell:14d}'
-                       for cell in cells), flush=True)
-        with open(os.path.join(options.output, 'growth.json'), 'w', encoding='utf-8') as file:
-            json.dump(rows, file, indent=2)
+        row = growth.row(made[:count], data_sets)
+        result['rows'].append(row)
+        print(' '.join(text(row[column]) for column in columns), flush=True)
+        for name, score in row['scores'].items():
+            print(f'  {name}: {score}', flush=True)
+    for data_set in data_sets:
+        result['alone'][data_set.name] = growth.alone(data_set)
+        print(f'{data_set.name} alone: {result["alone"][data_set.name]}', flush=True)
+    with open(os.path.join(options.output, 'growth.json'), 'w', encoding='utf-8') as file:
+        json.dump(result, file, indent=2)
 
 
 if __name__ == '__main__':

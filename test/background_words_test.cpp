@@ -52,7 +52,8 @@ TEST(BackgroundViews, FirstIsACubeOfThreeCentimetres) {
 
 TEST(BackgroundWords, AreHistogramsAndRemembered) {
   const Settings settings;
-  const auto words = backgroundWords(settings);
+  const Codebook codebook;
+  const auto words = backgroundWords(codebook, settings);
   ASSERT_NE(words, nullptr);
   EXPECT_GT(words->words().rows(), 1000u);
   EXPECT_EQ(words->words().cols(), shot_size);
@@ -62,13 +63,42 @@ TEST(BackgroundWords, AreHistogramsAndRemembered) {
     for (std::size_t bin = 0; bin < shot_size; ++bin) square += std::pow(words->words().row(row, bins)[bin], 2);
     EXPECT_NEAR(square, 1, 0.01);
   }
-  EXPECT_EQ(backgroundWords(settings), words);
+  EXPECT_EQ(backgroundWords(codebook, settings), words);
   Settings larger;
   larger.descriptor.radius = 0.08;
-  EXPECT_NE(backgroundWords(larger), words);
+  EXPECT_NE(backgroundWords(codebook, larger), words);
   Settings hopeless;
   hopeless.descriptor.radius = 0.002;
-  EXPECT_EQ(backgroundWords(hopeless), nullptr);
+  EXPECT_EQ(backgroundWords(codebook, hopeless), nullptr);
+}
+
+TEST(BackgroundWords, OfACodebookAreTakenWhereItsSettingsAreTheSame) {
+  Codebook codebook;
+  codebook.background = quantized(histograms(40, shot_size, 7), shot_size);
+  Settings settings;
+  const auto kept = backgroundWords(codebook, settings);
+  ASSERT_EQ(kept->words().rows(), 40u);
+  EXPECT_EQ(backgroundWords(codebook, settings), kept);
+  settings.voting.bandwidth *= 2;  // says nothing about descriptors
+  EXPECT_EQ(backgroundWords(codebook, settings), kept);
+  EXPECT_GT(backgroundWords(Codebook(), settings)->words().rows(), 1000u);  // of another one they are its own
+  settings.descriptor.radius *= 1.5;
+  EXPECT_GT(backgroundWords(codebook, settings)->words().rows(), 1000u);
+}
+
+TEST(BackgroundWords, AreTrainedWithACodebookThatNeedsThem) {
+  Settings settings;
+  const auto trained = [&] {
+    const auto cloud =
+        test::view({{test::asymmetricShape(), test::poseOf(35, {1, 2, 0.5f}, {0, 0, 0.8f})}}, 0.004f, 96, 72);
+    return train({test::sampleOf("thing", cloud)}, settings, "one");
+  };
+  settings.descriptor.type = DescriptorType::shot;
+  const QuantizedDescriptors kept = trained().background;
+  ASSERT_GT(kept.rows(), 1000u);
+  EXPECT_EQ(kept.rows(), backgroundDescriptors(settings).rows());
+  settings.matching.background = false;
+  EXPECT_EQ(trained().background.rows(), 0u);
 }
 
 TEST(BackgroundWords, TakeVotesOfWhatResemblesThemMore) {

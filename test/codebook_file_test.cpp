@@ -16,6 +16,7 @@
 #include <sks_detector/settings_file.hpp>
 
 #include "codebook_generated.h"
+#include "core/surface/color_space.hpp"
 #include "error_of.hpp"
 #include "io/codebook_layout.hpp"
 #include "io/crc32c.hpp"
@@ -75,6 +76,10 @@ sks::Codebook makeCodebook(sks::DescriptorType type = sks::DescriptorType::shot)
     for (std::size_t bin = 0; bin < sks::descriptorSize(type); ++bin) values.push_back(number(random));
   }
   codebook.descriptors = sks::QuantizedDescriptors(sks::DescriptorMatrix(std::move(values), sks::descriptorSize(type)));
+  std::vector<float> background(3 * sks::descriptorSize(type));
+  for (float& bin : background) bin = number(random);
+  codebook.background =
+      sks::QuantizedDescriptors(sks::DescriptorMatrix(std::move(background), sks::descriptorSize(type)));
   return codebook;
 }
 
@@ -102,12 +107,35 @@ protected:
   const std::string path_ = folder_.path("toys.sks");
 };
 
+void expectEqual(const sks::QuantizedDescriptors& a, const sks::QuantizedDescriptors& b) {
+  ASSERT_EQ(a.rows(), b.rows());
+  ASSERT_EQ(a.cols(), b.cols());
+  for (std::size_t row = 0; row < a.rows(); ++row) {
+    EXPECT_EQ(a.scale(row), b.scale(row));
+    EXPECT_EQ(std::memcmp(a.levels(row), b.levels(row), a.cols()), 0);
+  }
+}
+
 std::string withHeader(const std::string& content, void (*change)(sks::CodebookHeader&)) {
   sks::CodebookHeader header;
   std::memcpy(&header, content.data(), sizeof(header));
   change(header);
   return sealed(
       std::string(content).replace(0, sizeof(header), reinterpret_cast<const char*>(&header), sizeof(header)));
+}
+
+/// A file of this metadata, without descriptors.
+std::string ofMetadata(const flatbuffers::FlatBufferBuilder& builder, std::uint32_t version) {
+  sks::CodebookHeader header;
+  header.version = version;
+  header.metadata_offset = sizeof(header);
+  header.metadata_size = builder.GetSize();
+  std::string content(sizeof(header), '\0');
+  content.append(reinterpret_cast<const char*>(builder.GetBufferPointer()), builder.GetSize());
+  content.resize((content.size() + 63) / 64 * 64);
+  header.descriptors_offset = header.file_size = content.size();
+  content.replace(0, sizeof(header), reinterpret_cast<const char*>(&header), sizeof(header));
+  return sealed(content);
 }
 
 }  // namespace
@@ -162,15 +190,64 @@ TEST_F(CodebookFile, RoundTripKeepsEverything) {
     ASSERT_TRUE(model_back.symmetry);
     EXPECT_EQ(model_back.symmetry->axis, Eigen::Vector3d::UnitY());
     EXPECT_EQ(model_back.symmetry->order, 2);
-    ASSERT_EQ(back->descriptors.rows(), codebook.descriptors.rows());
-    ASSERT_EQ(back->descriptors.cols(), codebook.descriptors.cols());
-    for (std::size_t row = 0; row < back->descriptors.rows(); ++row) {
-      EXPECT_EQ(back->descriptors.scale(row), codebook.descriptors.scale(row));
-      EXPECT_EQ(std::memcmp(back->descriptors.levels(row), codebook.descriptors.levels(row), back->descriptors.cols()),
-                0);
-    }
+    expectEqual(back->descriptors, codebook.descriptors);
+    expectEqual(back->background, codebook.background);
     EXPECT_EQ(reinterpret_cast<std::uintptr_t>(back->descriptors.levels(0)) % 64, 0u);
   }
+}
+
+TEST_F(CodebookFile, EveryColourIsKeptInThreeBytes) {
+  sks::Codebook codebook = makeCodebook();
+  sks::TrainingView& view = codebook.views[2];
+  constexpr int step = 5;
+  for (int r = 0; r < 256; r += step) {
+    for (int g = 0; g < 256; g += step) {
+      for (int b = 0; b < 256; b += step) {
+        const auto lab = sks::toScaledLab({std::uint8_t(r), std::uint8_t(g), std::uint8_t(b)});
+        view.surface_colors.emplace_back(lab[0], lab[1], lab[2]);
+      }
+    }
+  }
+  view.surface_colors.erase(view.surface_colors.begin(), view.surface_colors.begin() + 2);  // which are no sRGB
+  view.surface_points.assign(view.surface_colors.size(), Eigen::Vector3f::Ones());
+  view.surface_normals.assign(view.surface_colors.size(), Eigen::Vector3f::UnitX());
+  sks::writeCodebook(path_, codebook);
+  EXPECT_EQ(sks::readCodebook(path_)->views[2].surface_colors, view.surface_colors);
+  EXPECT_LT(sks::readTextFile(path_).size(), view.surface_colors.size() * (2 * 12 + 3) + 5000);
+
+  view.surface_colors[7].x() += 1e-6f;  // one that no sRGB gives: all stay as they are
+  sks::writeCodebook(path_, codebook);
+  EXPECT_EQ(sks::readCodebook(path_)->views[2].surface_colors, view.surface_colors);
+  EXPECT_GT(sks::readTextFile(path_).size(), view.surface_colors.size() * 3 * 12);
+}
+
+TEST_F(CodebookFile, TheSecondVersionIsRead) {
+  sks::Codebook old = makeCodebook();
+  old.background = {};
+  sks::writeCodebook(path_, old);
+  const std::string whole = sks::readTextFile(path_);
+  writeFile(path_, withHeader(whole, [](sks::CodebookHeader& header) { header.version = 2; }));
+  const auto back = sks::readCodebook(path_);
+  EXPECT_EQ(back->views[2].surface_colors, old.views[2].surface_colors);
+  expectEqual(back->descriptors, old.descriptors);
+  EXPECT_EQ(back->background.rows(), 0u);
+}
+
+TEST_F(CodebookFile, ColoursThatStandThereTwiceAreRefused) {
+  namespace format = sks::format;
+  flatbuffers::FlatBufferBuilder builder;
+  const format::Vec3 zero(0, 0, 0);
+  const auto vectors = builder.CreateVectorOfStructs(std::vector<format::Vec3>(2));
+  const auto levels = builder.CreateVectorOfStructs(std::vector<format::Color>(2));
+  const auto view = format::CreateView(builder, 0, builder.CreateString("a.pcd"), format::ViewKind_view, &zero, &zero,
+                                       &zero, vectors, vectors, 0, vectors, nullptr, levels);
+  const auto views = builder.CreateVector(std::vector<flatbuffers::Offset<format::View>>{view});
+  const auto objects = builder.CreateVectorOfStrings({"mug"});
+  const auto words = builder.CreateVectorOfStructs(std::vector<format::Word>());
+  format::FinishCodebookBuffer(
+      builder, format::CreateCodebook(builder, builder.CreateString("toys"), builder.CreateString("shot"), 352,
+                                      builder.CreateString(std::string(100, ' ')), objects, views, words));
+  EXPECT_EQ(readError(ofMetadata(builder, 3)), "its training cloud 'a.pcd' has colours twice; train it again");
 }
 
 TEST_F(CodebookFile, WithoutModelsNothingIsStoredOfThem) {
@@ -301,8 +378,8 @@ TEST_F(CodebookFile, EveryFlippedByteIsRefused) {
 }
 
 TEST_F(CodebookFile, NewerVersionAsksForAnUpdate) {
-  EXPECT_EQ(readError(withHeader(content(), [](sks::CodebookHeader& header) { header.version = 3; })),
-            "it was written by a newer version (file format 3, this build reads up to 2): update sks_detector");
+  EXPECT_EQ(readError(withHeader(content(), [](sks::CodebookHeader& header) { header.version = 4; })),
+            "it was written by a newer version (file format 4, this build reads up to 3): update sks_detector");
 }
 
 TEST_F(CodebookFile, FloatsOfTheFirstVersionAreRounded) {
@@ -345,9 +422,9 @@ TEST_F(CodebookFile, SectionsMustLieInsideTheFile) {
               "it is damaged (its checksum does not match); copy or train it again");
   }
   EXPECT_EQ(readError(withHeader(whole, [](sks::CodebookHeader& header) { header.descriptors_size -= 4; })),
-            "its 2 codewords have not one descriptor each; train it again");
+            "its 2 codewords and 3 descriptors of the background have not one descriptor each; train it again");
   EXPECT_EQ(readError(withHeader(whole, [](sks::CodebookHeader& header) { header.descriptors_size = 0; })),
-            "its 2 codewords have not one descriptor each; train it again");
+            "its 2 codewords and 3 descriptors of the background have not one descriptor each; train it again");
   EXPECT_EQ(readError(withHeader(whole, [](sks::CodebookHeader& header) { header.metadata_size = 0; })),
             "its metadata is damaged; train it again");
 }
@@ -355,7 +432,7 @@ TEST_F(CodebookFile, SectionsMustLieInsideTheFile) {
 /// Damage that a checksum cannot show, because it was made before: reading ends with a codebook or an Error.
 TEST_F(CodebookFile, MetadataIsVerifiedBehindTheChecksum) {
   const std::string whole = content();
-  const std::size_t metadata_end = whole.size() - 64 - 2 * 352;
+  const std::size_t metadata_end = whole.size() - 64 - 5 * 352;
   std::size_t refused = 0;
   for (std::size_t at = 64; at < metadata_end; ++at) {
     std::string damaged = whole;
@@ -382,17 +459,9 @@ TEST_F(CodebookFile, SharedTextIsNotMultiplied) {
   const auto words = builder.CreateVectorOfStructs(std::vector<format::Word>());
   format::FinishCodebookBuffer(builder, format::CreateCodebook(builder, text, builder.CreateString("shot"), 352,
                                                                builder.CreateString(""), objects, views, words));
-  sks::CodebookHeader header;
-  header.version = 1;
-  header.metadata_offset = sizeof(header);
-  header.metadata_size = builder.GetSize();
-  std::string content(sizeof(header), '\0');
-  content.append(reinterpret_cast<const char*>(builder.GetBufferPointer()), builder.GetSize());
-  content.resize((content.size() + 63) / 64 * 64);
-  header.descriptors_offset = header.file_size = content.size();
-  content.replace(0, sizeof(header), reinterpret_cast<const char*>(&header), sizeof(header));
+  const std::string content = ofMetadata(builder, 1);
   EXPECT_LT(content.size(), 50000u);
-  EXPECT_EQ(readError(sealed(content)), "its metadata is damaged; train it again");
+  EXPECT_EQ(readError(content), "its metadata is damaged; train it again");
 }
 
 TEST_F(CodebookFile, UnknownSettingsAreNamed) {
@@ -472,6 +541,11 @@ TEST_F(CodebookFile, OnlySoundCodebooksAreWritten) {
   const float scales[] = {1, std::numeric_limits<float>::infinity()};
   codebook.descriptors = sks::QuantizedDescriptors(codebook.descriptors.levels(0), scales, 2, 352, {});
   EXPECT_EQ(writeError(codebook), "its codeword 1 has a descriptor that is none");
+  codebook = makeCodebook();
+  codebook.background = sks::QuantizedDescriptors(sks::DescriptorMatrix(std::vector<float>(4, 0.5f), 4));
+  EXPECT_EQ(writeError(codebook), "the descriptors of its background have 4 bins, not 352");
+  codebook.background = sks::QuantizedDescriptors(codebook.descriptors.levels(0), scales, 2, 352, {});
+  EXPECT_EQ(writeError(codebook), "descriptor 1 of its background is none");
   codebook = makeCodebook();
   codebook.words[0].frame(1, 1) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(writeError(codebook), "its codeword 0 has a reference frame whose axes are no unit vectors");

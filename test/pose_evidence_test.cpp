@@ -102,10 +102,25 @@ TEST(PoseEvidence, APointWeighsTheSameAloneAndAmongAll) {
     EXPECT_EQ(some.shape[i], all.shape[i * stride]);
     EXPECT_EQ(some.shape_and_color[i], all.shape_and_color[i * stride]);
   }
+}
+
+TEST(PoseEvidence, WeightsAreKnownOfAsManyPointsAsAreAskedFor) {
+  const TrainingView view = trained();
+  const SurfaceWeights all(view);
   const std::vector<TrainingView> views(3, view);
-  const WeightsOfViews lazy(views);
-  EXPECT_EQ(lazy[2].shape, all.shape);
-  EXPECT_EQ(&lazy[2], &lazy[2]);
+  const std::size_t few = 50, stride = strideFor(view, few);
+  ASSERT_GT(stride, 2u);
+  const WeightsOfViews lazy(views, few);
+  const SurfaceWeights& some = lazy.at(2, stride);
+  for (std::size_t i = 0; i < view.surface_points.size(); i += stride) {
+    EXPECT_EQ(some.shape[i], all.shape[i]);
+    EXPECT_EQ(some.shape_and_color[i], all.shape_and_color[i]);
+  }
+  EXPECT_EQ(&lazy.at(2, 3 * stride), &some);
+  EXPECT_NE(some.shape, all.shape);  // not all of them
+  EXPECT_EQ(lazy.at(2, 1).shape, all.shape);
+  EXPECT_EQ(lazy.at(2, stride).shape_and_color, all.shape_and_color);
+  EXPECT_EQ(lazy.at(0, 1).shape, all.shape);
 }
 
 TEST(PoseEvidence, RoughSupportTellsAGoodPoseFromABadOne) {

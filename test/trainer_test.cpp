@@ -196,6 +196,37 @@ TEST(Trainer, WithoutCloudsThereIsNothingToTrain) {
   EXPECT_EQ(trainingError(ErrorCode::bad_usage, {}), "there is nothing to train: no training cloud was given");
 }
 
+TEST(Trainer, WordsOfMeshesThatRepeatOthersAreLeftOut) {
+  using sks::test::poseOf;
+  const auto view = [](float degrees) {
+    auto sample = sampleOf(
+        "thing", sks::test::view({{sks::test::asymmetricShape(), poseOf(degrees, {1, 2, 0.5f}, {0, 0, 0.8f})}}));
+    sample.rendered = true;
+    sample.frame = "thing.obj";
+    return sample;
+  };
+  sks::Settings settings;
+  const auto words = [&](const std::vector<sks::TrainingSample>& samples) {
+    const sks::Codebook codebook = sks::train(samples, settings, "test");
+    EXPECT_EQ(codebook.descriptors.rows(), codebook.words.size());
+    EXPECT_EQ(codebook.views.size(), samples.size());
+    return codebook.words.size();
+  };
+  const auto first = view(35), other_side = view(215);
+  const std::size_t once = words({first});
+  EXPECT_EQ(words({first, first}), once);
+  EXPECT_GT(words({first, other_side}), once + once / 2);
+  auto other_mesh = first;
+  other_mesh.frame = "other.obj";
+  EXPECT_EQ(words({first, other_mesh}), 2 * once);
+  auto captured = first;
+  captured.rendered = false;
+  const std::size_t all = words({captured});
+  EXPECT_EQ(words({captured, captured}), 2 * all);  // noise says something new each time
+  settings.detection.hypotheses = sks::Hypotheses::hough;
+  EXPECT_EQ(words({first, first}), 2 * all);  // as published, every codeword is kept
+}
+
 TEST(Trainer, ReportsProgressAndCanBeCancelled) {
   const std::vector<sks::TrainingSample> samples{sampleOf("a", sks::test::bumps(), ViewKind::view, "1.pcd"),
                                                  sampleOf("a", sks::test::bumps(), ViewKind::view, "2.pcd")};

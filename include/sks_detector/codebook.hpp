@@ -115,6 +115,9 @@ struct Codebook {
   std::vector<TrainingView> views;
   std::vector<Codeword> words;
   QuantizedDescriptors descriptors;     ///< words.size() rows
+  /// Of what stands about in rooms, which competes with the codewords; no rows: a detector makes them where it needs
+  /// them.
+  QuantizedDescriptors background;
   std::vector<RegisteredModel> models;  ///< of objects whose captured views were registered
   RememberedChecksum checksum;          ///< for codebookChecksum()
 

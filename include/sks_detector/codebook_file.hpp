@@ -10,7 +10,7 @@
 namespace sks {
 
 /// Version of the file format that this build writes; it reads this and all earlier ones.
-constexpr std::uint32_t codebook_file_version = 2;
+constexpr std::uint32_t codebook_file_version = 3;
 
 /// Writes a codebook whole or not at all (temporary name, sync, rename); see docs/codebook_file.md.
 /// @return codebookChecksum()

@@ -41,6 +41,11 @@ bool allWithin(const std::vector<Eigen::Vector3f>& vectors, float largest) {
   return std::all_of(vectors.begin(), vectors.end(), [&](const auto& vector) { return within(vector, largest); });
 }
 
+/// Of a descriptor.
+bool isScale(float scale) {
+  return scale >= 0 && scale <= QuantizedDescriptors::largest_bin;
+}
+
 std::string viewFault(const Codebook& codebook, const TrainingView& view) {
   if (view.object >= codebook.objects.size()) return "belongs to an object that is not there";
   if (view.frame.size() > longest_frame) return "has a frame with a name of more than 4096 bytes";
@@ -149,6 +154,14 @@ std::string codebookFault(const Codebook& codebook) {
     return "its " + std::to_string(codebook.words.size()) + " codewords have " + std::to_string(descriptors.rows()) +
            " descriptors of " + std::to_string(descriptors.cols()) + " bins";
   }
+  const QuantizedDescriptors& background = codebook.background;
+  if (background.rows() > 0 && background.cols() != columns) {
+    return "the descriptors of its background have " + std::to_string(background.cols()) + " bins, not " +
+           std::to_string(columns);
+  }
+  for (std::size_t i = 0; i < background.rows(); ++i) {
+    if (!isScale(background.scale(i))) return "descriptor " + std::to_string(i) + " of its background is none";
+  }
   if (!codebook.name.empty() && !nameFault(codebook.name).empty()) {
     return "its name '" + shown(codebook.name, 60) + "' cannot be used: " + nameFault(codebook.name);
   }
@@ -170,8 +183,7 @@ std::string codebookFault(const Codebook& codebook) {
     if (word.view >= codebook.views.size()) return name + " belongs to a training cloud that is not there";
     if (!within(word.position, largest_length)) return name + " does not lie within 1000 km";
     if (!within(word.frame, largest_of_unit)) return name + " has a reference frame whose axes are no unit vectors";
-    const float scale = descriptors.scale(i);
-    if (!(scale >= 0 && scale <= QuantizedDescriptors::largest_bin)) return name + " has a descriptor that is none";
+    if (!isScale(descriptors.scale(i))) return name + " has a descriptor that is none";
   }
   return "";
 }

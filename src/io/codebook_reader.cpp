@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
 #include <vector>
 
 #include <sks_detector/codebook_file.hpp>
@@ -8,6 +9,7 @@
 #include "codebook_generated.h"
 #include "core/settings/shown_text.hpp"
 #include "core/settings/value_text.hpp"
+#include "core/surface/color_space.hpp"
 #include "io/codebook_layout.hpp"
 #include "io/file_content.hpp"
 
@@ -20,6 +22,10 @@ namespace {
 
 Eigen::Vector3f fromFormat(const format::Vec3& v) {
   return {v.x(), v.y(), v.z()};
+}
+
+Rgb fromFormat(const format::Color& color) {
+  return {color.r(), color.g(), color.b()};
 }
 
 Eigen::Isometry3d fromFormat(const format::Pose& from) {
@@ -54,6 +60,15 @@ TrainingView fromFormat(const format::View& from) {
   view.surface_normals = fromFormat(*from.surface_normals());
   if (from.source_pose() != nullptr) view.T_model_source = fromFormat(*from.source_pose());
   if (from.surface_colors() != nullptr) view.surface_colors = fromFormat(*from.surface_colors());
+  if (from.surface_levels() != nullptr) {
+    if (!view.surface_colors.empty())
+      badCodebook("its training cloud '" + shown(view.source) + "' has colours twice; train it again");
+    view.surface_colors.reserve(from.surface_levels()->size());
+    for (const format::Color* color : *from.surface_levels()) {
+      const std::array<float, 3> lab = toScaledLab(fromFormat(*color));
+      view.surface_colors.emplace_back(lab[0], lab[1], lab[2]);
+    }
+  }
   return view;
 }
 
@@ -68,8 +83,7 @@ RegisteredModel fromFormat(const format::Model& from) {
     model.symmetry = {fromFormat(*from.symmetry_axis()).cast<double>(), from.symmetry_order()};
   }
   if (from.colors() != nullptr) {
-    for (const format::Color* color : *from.colors())
-      model.surface.colors.push_back({color->r(), color->g(), color->b()});
+    for (const format::Color* color : *from.colors()) model.surface.colors.push_back(fromFormat(*color));
   }
   return model;
 }
@@ -100,7 +114,8 @@ constexpr std::size_t least_view = 48;   // bytes that a view takes besides its 
 constexpr std::size_t least_model = 36;  // the same of a model
 
 /// FlatBuffers lets any number of entries refer to one text or vector: copied for each, they would fill the memory from
-/// a small file. What the writer leaves takes no more memory than it takes in the file.
+/// a small file. What the writer leaves takes no more memory than it takes in the file, but for colours: four times
+/// that.
 bool takesWhatItStores(const format::Codebook& from, std::uint64_t stored) {
   std::uint64_t bytes = 0;
   for (const auto* object : *from.objects()) bytes += object->size();
@@ -108,7 +123,8 @@ bool takesWhatItStores(const format::Codebook& from, std::uint64_t stored) {
     if (view->frame() != nullptr && view->frame()->size() > longest_frame) return false;
     const std::uint64_t colors = view->surface_colors() != nullptr ? view->surface_colors()->size() : 0;
     const std::uint64_t vectors = view->surface_points()->size() + view->surface_normals()->size() + colors;
-    bytes += least_view + view->source()->size() + vectors * sizeof(format::Vec3);
+    const std::uint64_t levels = view->surface_levels() != nullptr ? view->surface_levels()->size() : 0;
+    bytes += least_view + view->source()->size() + vectors * sizeof(format::Vec3) + levels * sizeof(format::Color);
   }
   if (from.models() != nullptr) {
     for (const auto* model : *from.models()) {
@@ -133,16 +149,21 @@ QuantizedDescriptors floatDescriptors(const std::shared_ptr<const FileContent>& 
   }
 }
 
-/// The descriptor section, in place.
-QuantizedDescriptors descriptorsOf(const std::shared_ptr<const FileContent>& file, const CodebookHeader& header,
-                                   std::size_t rows, std::size_t columns) {
-  const std::uint64_t levels = levelsOffset(rows);
-  if (header.descriptors_size < levels || header.descriptors_size - levels != std::uint64_t(rows) * columns) {
-    badCodebook("its " + std::to_string(rows) + " codewords have not one descriptor each; train it again");
+/// The descriptor section, in place: the rows of the words, and behind them those of the background.
+void takeDescriptors(const std::shared_ptr<const FileContent>& file, const CodebookHeader& header,
+                     std::uint32_t background, std::size_t columns, Codebook& codebook) {
+  const std::size_t words = codebook.words.size();
+  const std::uint64_t rows = std::uint64_t(words) + background, levels = levelsOffset(rows);
+  if (header.descriptors_size < levels || header.descriptors_size - levels != rows * columns) {
+    badCodebook("its " + std::to_string(words) + " codewords" +
+                (background > 0 ? " and " + std::to_string(background) + " descriptors of the background" : "") +
+                " have not one descriptor each; train it again");
   }
   const std::uint8_t* section = file->data() + header.descriptors_offset;
   const auto* scales = static_cast<const float*>(static_cast<const void*>(section));  // sections are aligned
-  return {section + levels, scales, rows, columns, file};
+  codebook.descriptors = {section + levels, scales, words, columns, file};
+  if (background == 0) return;
+  codebook.background = {section + levels + words * columns, scales + words, background, columns, file};
 }
 
 std::shared_ptr<const Codebook> read(const std::shared_ptr<FileContent>& file) {
@@ -169,9 +190,11 @@ std::shared_ptr<const Codebook> read(const std::shared_ptr<FileContent>& file) {
   if (from.models() != nullptr) {
     for (const auto* model : *from.models()) codebook->models.push_back(fromFormat(*model));
   }
-  codebook->descriptors = header.version < first_quantized_version
-                              ? floatDescriptors(file, header, from.descriptor_size())
-                              : descriptorsOf(file, header, codebook->words.size(), from.descriptor_size());
+  if (header.version < first_quantized_version) {
+    codebook->descriptors = floatDescriptors(file, header, from.descriptor_size());
+  } else {
+    takeDescriptors(file, header, from.background(), from.descriptor_size(), *codebook);
+  }
   codebook->checksum.set(header.payload_checksum);
   const std::string fault = codebookFault(*codebook);
   if (!fault.empty()) badCodebook(fault + "; train it again");

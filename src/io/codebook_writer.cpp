@@ -8,6 +8,7 @@
 
 #include "codebook_generated.h"
 #include "core/settings/value_text.hpp"
+#include "core/surface/color_space.hpp"
 #include "io/atomic_file.hpp"
 #include "io/codebook_layout.hpp"
 #include "io/crc32c.hpp"
@@ -16,6 +17,8 @@ namespace sks {
 namespace {
 
 using flatbuffers::Offset;
+using Vectors = flatbuffers::Vector<const format::Vec3*>;
+using Colors = flatbuffers::Vector<const format::Color*>;
 
 format::Vec3 toFormat(const Eigen::Vector3f& v) {
   return {v.x(), v.y(), v.z()};
@@ -27,12 +30,30 @@ format::Pose toFormat(const Eigen::Isometry3d& T) {
   return {column(0), column(1), column(2), column(3)};
 }
 
-Offset<flatbuffers::Vector<const format::Vec3*>> toFormat(flatbuffers::FlatBufferBuilder& builder,
-                                                          const std::vector<Eigen::Vector3f>& vectors) {
+Offset<Vectors> toFormat(flatbuffers::FlatBufferBuilder& builder, const std::vector<Eigen::Vector3f>& vectors) {
   std::vector<format::Vec3> structs;
   structs.reserve(vectors.size());
   for (const Eigen::Vector3f& v : vectors) structs.push_back(toFormat(v));
   return builder.CreateVectorOfStructs(structs);
+}
+
+Offset<Colors> toFormat(flatbuffers::FlatBufferBuilder& builder, const std::vector<Rgb>& colors) {
+  std::vector<format::Color> structs;
+  structs.reserve(colors.size());
+  for (const Rgb& color : colors) structs.emplace_back(color.r, color.g, color.b);
+  return builder.CreateVectorOfStructs(structs);
+}
+
+/// Colours of a surface as the camera or the texture had them; none where they were not made of such.
+std::vector<Rgb> levelsOf(const std::vector<Eigen::Vector3f>& surface_colors) {
+  std::vector<Rgb> levels;
+  levels.reserve(surface_colors.size());
+  for (const Eigen::Vector3f& color : surface_colors) {
+    const std::array<float, 3> lab{color.x(), color.y(), color.z()};
+    levels.push_back(fromScaledLab(lab));
+    if (toScaledLab(levels.back()) != lab) return {};
+  }
+  return levels;
 }
 
 Offset<format::View> toFormat(flatbuffers::FlatBufferBuilder& builder, const TrainingView& view) {
@@ -40,22 +61,22 @@ Offset<format::View> toFormat(flatbuffers::FlatBufferBuilder& builder, const Tra
   const auto frame = view.frame.empty() ? Offset<flatbuffers::String>() : builder.CreateSharedString(view.frame);
   const auto points = toFormat(builder, view.surface_points);
   const auto normals = toFormat(builder, view.surface_normals);
-  const auto colors = toFormat(builder, view.surface_colors);
+  const std::vector<Rgb> levels = levelsOf(view.surface_colors);
+  const bool has_levels = !levels.empty(), has_colors = !has_levels && !view.surface_colors.empty();
+  const auto colors = has_colors ? toFormat(builder, view.surface_colors) : Offset<Vectors>();
+  const auto color_levels = has_levels ? toFormat(builder, levels) : Offset<Colors>();
   const format::Vec3 origin = toFormat(view.sensor_origin), low = toFormat(view.box_min), high = toFormat(view.box_max);
   const format::Pose pose = view.T_model_source ? toFormat(*view.T_model_source) : format::Pose();
   return format::CreateView(builder, view.object, source, format::ViewKind(view.kind), &origin, &low, &high, points,
-                            normals, frame, colors, view.T_model_source ? &pose : nullptr);
+                            normals, frame, colors, view.T_model_source ? &pose : nullptr, color_levels);
 }
 
 Offset<format::Model> toFormat(flatbuffers::FlatBufferBuilder& builder, const RegisteredModel& model) {
   const FusedModel& surface = model.surface;
-  std::vector<format::Color> levels;
-  for (const Rgb& color : surface.colors) levels.emplace_back(color.r, color.g, color.b);
   const auto frame = builder.CreateSharedString(model.frame);
   const auto points = toFormat(builder, surface.points);
   const auto normals = toFormat(builder, surface.normals);
-  const auto colors =
-      levels.empty() ? Offset<flatbuffers::Vector<const format::Color*>>() : builder.CreateVectorOfStructs(levels);
+  const auto colors = surface.colors.empty() ? Offset<Colors>() : toFormat(builder, surface.colors);
   const format::Vec3 low = toFormat(surface.box.min()), high = toFormat(surface.box.max());
   const Symmetry symmetry = model.symmetry.value_or(Symmetry());
   const format::Vec3 axis = toFormat(symmetry.axis.cast<float>());
@@ -103,8 +124,9 @@ void build(flatbuffers::FlatBufferBuilder& builder, const Codebook& codebook) {
   const auto model_vector =
       models.empty() ? Offset<flatbuffers::Vector<Offset<format::Model>>>() : builder.CreateVector(models);
   const auto columns = std::uint32_t(codebook.descriptorSize());
-  format::FinishCodebookBuffer(builder, format::CreateCodebook(builder, name, type, columns, settings, objects,
-                                                               view_vector, word_vector, model_vector));
+  format::FinishCodebookBuffer(
+      builder, format::CreateCodebook(builder, name, type, columns, settings, objects, view_vector, word_vector,
+                                      model_vector, std::uint32_t(codebook.background.rows())));
 }
 
 /// What stands in a codebook file, but for the descriptors.
@@ -119,17 +141,24 @@ std::size_t levelsSize(const QuantizedDescriptors& descriptors) {
   return descriptors.rows() * descriptors.cols();
 }
 
+/// Of the descriptor section, those of the words first.
+std::size_t rowsOf(const Codebook& codebook) {
+  return codebook.descriptors.rows() + codebook.background.rows();
+}
+
 /// Hands over what follows the header, piece by piece.
 template <typename Function>
 void forEachPiece(const FileParts& parts, const Codebook& codebook, Function&& take) {
   static constexpr std::array<char, codebook_alignment> zeros{};
-  const QuantizedDescriptors& descriptors = codebook.descriptors;
-  const std::size_t scales_size = descriptors.rows() * sizeof(float);
+  const QuantizedDescriptors &descriptors = codebook.descriptors, &background = codebook.background;
+  const std::size_t rows = rowsOf(codebook);
   take(parts.metadata.GetBufferPointer(), parts.header.metadata_size);
   take(zeros.data(), parts.header.descriptors_offset - parts.header.metadata_offset - parts.header.metadata_size);
-  take(descriptors.scales(), scales_size);
-  take(zeros.data(), levelsOffset(descriptors.rows()) - scales_size);
+  take(descriptors.scales(), descriptors.rows() * sizeof(float));
+  take(background.scales(), background.rows() * sizeof(float));
+  take(zeros.data(), levelsOffset(rows) - rows * sizeof(float));
   take(descriptors.levels(0), levelsSize(descriptors));
+  take(background.levels(0), levelsSize(background));
 }
 
 FileParts makeParts(const Codebook& codebook, const std::string& path) {
@@ -147,14 +176,14 @@ FileParts makeParts(const Codebook& codebook, const std::string& path) {
   FileParts parts(metadata_bound);
   build(parts.metadata, codebook);
 
-  const QuantizedDescriptors& descriptors = codebook.descriptors;
   CodebookHeader& header = parts.header;
   header.version = codebook_file_version;
   header.metadata_offset = sizeof(header);
   header.metadata_size = parts.metadata.GetSize();
   const std::uint64_t metadata_end = header.metadata_offset + header.metadata_size;
   header.descriptors_offset = alignedOffset(metadata_end);
-  header.descriptors_size = levelsOffset(descriptors.rows()) + levelsSize(descriptors);
+  header.descriptors_size =
+      levelsOffset(rowsOf(codebook)) + levelsSize(codebook.descriptors) + levelsSize(codebook.background);
   header.file_size = header.descriptors_offset + header.descriptors_size;
   forEachPiece(parts, codebook, [&](const void* data, std::size_t size) {
     header.payload_checksum = crc32c(data, size, header.payload_checksum);

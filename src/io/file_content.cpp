@@ -17,7 +17,8 @@
 namespace sks {
 namespace {
 
-constexpr std::size_t block_size = 1 << 20;  // [bytes]
+constexpr std::size_t block_size = 1 << 20;         // [bytes]
+constexpr std::size_t worth_large_pages = 8 << 20;  // [bytes] several pages of 2 MB
 
 /// Copies a file to memory that is zero. Fewer bytes than `size` where it was truncated meanwhile.
 std::size_t copy(const RegularFile& file, std::uint8_t* to, std::size_t size) {
@@ -52,6 +53,9 @@ FileContent::FileContent(const std::string& path, const std::string& magic) {
   if (data == MAP_FAILED) throw Error(ErrorCode::bad_file, std::generic_category().message(errno));
   data_ = static_cast<std::uint8_t*>(data);
   reserved_ = size;
+#ifdef MADV_HUGEPAGE
+  if (size >= worth_large_pages) ::madvise(data, size, MADV_HUGEPAGE);  // a wish: thousands of pages take time to get
+#endif
   try {
     size_ = copy(file, data_, size);
   } catch (...) {

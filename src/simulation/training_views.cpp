@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <utility>
 
 #include <sks_detector/error.hpp>
 
@@ -19,6 +23,33 @@ double fittingDistance(const CameraModel& camera, double radius) {
   const double slope = std::min(0.5 * camera.width / camera.fx, 0.5 * camera.height / camera.fy);
   return margin * radius / std::sin(std::atan(slope));
 }
+
+/// What renders the views of one mesh: made for the first of them and let go with the last, since of many meshes that
+/// are trained one after the other, each takes as much memory for it as for itself. Thread-safe.
+class RendererOfViews {
+public:
+  RendererOfViews(std::shared_ptr<const Mesh> mesh, std::size_t views) : mesh_(std::move(mesh)), views_(views) {}
+
+  std::shared_ptr<const Renderer> forView() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!renderer_) {
+      const auto made = std::make_shared<Renderer>();
+      made->addInstance(made->addMesh(mesh_), Eigen::Isometry3d::Identity());
+      renderer_ = made;
+      rendered_ = 0;
+    }
+    const std::shared_ptr<const Renderer> renderer = renderer_;
+    if (++rendered_ == views_) renderer_.reset();
+    return renderer;
+  }
+
+private:
+  std::shared_ptr<const Mesh> mesh_;
+  std::size_t views_;
+  std::mutex mutex_;
+  std::shared_ptr<const Renderer> renderer_;
+  std::size_t rendered_ = 0;
+};
 
 /// The points that were measured, in another frame.
 Cloud measuredPoints(const Cloud& view, bool color, const Eigen::Isometry3d& T_model_camera) {
@@ -67,10 +98,10 @@ std::vector<TrainingSample> meshSamples(const std::string& object, const std::st
   camera.max_range = distance + 2 * radius;
   validate(camera);
 
-  const auto renderer = std::make_shared<Renderer>();
-  renderer->addInstance(renderer->addMesh(mesh), Eigen::Isometry3d::Identity());
+  const std::vector<Eigen::Vector3d> directions = geodesicDirections(training.views);
+  const auto renderer = std::make_shared<RendererOfViews>(mesh, directions.size());
   std::vector<TrainingSample> samples;
-  for (const Eigen::Vector3d& direction : geodesicDirections(training.views)) {
+  for (const Eigen::Vector3d& direction : directions) {
     const std::size_t number = samples.size();
     const Eigen::Vector3d center = box.center().cast<double>();
     const Eigen::Isometry3d T_model_camera = lookAt(center + distance * direction, center, Eigen::Vector3d::UnitZ());
@@ -81,7 +112,7 @@ std::vector<TrainingSample> meshSamples(const std::string& object, const std::st
     sample.box = box;
     sample.rendered = true;
     sample.load = [renderer, camera, T_model_camera, number, threads = training.threads, color = mesh->hasColor()] {
-      const Rendering view = renderer->render(camera, T_model_camera, number, threads);
+      const Rendering view = renderer->forView()->render(camera, T_model_camera, number, threads);
       return measuredPoints(view.cloud, color, T_model_camera);
     };
     samples.push_back(std::move(sample));

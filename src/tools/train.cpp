@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <memory>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/error.hpp>
 #include <sks_detector/registration.hpp>
@@ -73,6 +77,9 @@ void run(const TrainOptions& options) {
   bar.clear();
   for (const std::string& warning : registrationWarnings(trained.objects)) warn(warning);
   for (const std::string& warning : trainingWarnings(codebook)) warn(warning);
+#ifdef __GLIBC__
+  ::malloc_trim(0);  // meshes and clouds are gone: writing takes memory in their place, not beside them
+#endif
   writeCodebook(options.output, codebook);
   std::vector<std::string> models;
   for (const RegisteredObject& object : trained.objects) {

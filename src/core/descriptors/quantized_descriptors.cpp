@@ -68,6 +68,10 @@ void Quantizer::add(const QuantizedDescriptors& rows, std::size_t row) {
   *scales_.grow(1) = rows.scale(row);
 }
 
+void Quantizer::read(std::size_t row, float* bins) const {
+  HWY_DYNAMIC_DISPATCH(readLevelsImpl)(levels_.data() + row * cols_, scales_.data()[row], cols_, bins);
+}
+
 QuantizedDescriptors Quantizer::release() {
   const std::size_t rows = scales_.size();
   const auto owner =

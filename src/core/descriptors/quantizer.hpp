@@ -19,6 +19,8 @@ class GrowingValues {
 public:
   std::size_t size() const { return size_; }
 
+  const Number* data() const { return data_.get(); }
+
   /// @return where the new ones are to be written
   Number* grow(std::size_t count) {
     if (size_ + count > capacity_) reserve(std::max(size_ + count, capacity_ + capacity_ / 2));
@@ -58,6 +60,10 @@ public:
   void add(const float* bins);
   /// Takes over a row as it is.
   void add(const QuantizedDescriptors& rows, std::size_t row);
+
+  std::size_t cols() const { return cols_; }
+  /// Writes the bins of a row, as they are rounded.
+  void read(std::size_t row, float* bins) const;
 
   /// Leaves nothing here.
   QuantizedDescriptors release();

@@ -10,6 +10,7 @@
 #include <sks_detector/stages/keypoints.hpp>
 #include <sks_detector/stages/surface.hpp>
 
+#include "core/descriptors/quantizer.hpp"
 #include "core/matching/background_views.hpp"
 #include "core/matching/chi_squared.hpp"
 #include "core/settings/threads.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 constexpr std::size_t most_of_view = 200;  // keypoints, also on the finest grid
 constexpr float same_distance = 0.5f;      // chi squared; the same place seen twice by a sensor differs by 0.8 and more
-constexpr int most_threads = 4;            // for a quarter of a second once
+constexpr int most_threads = 4;            // for a quarter of a second
 
 /// Evenly spread ones.
 Keypoints thinned(Keypoints keypoints) {
@@ -41,14 +42,14 @@ void addDistinct(const DescriptorMatrix& rows, std::vector<float>& values) {
 }
 
 /// Of the views of one thing.
-std::vector<float> described(const std::vector<Cloud>& views, const Settings& settings) {
+QuantizedDescriptors described(const std::vector<Cloud>& views, const Settings& settings) {
   std::vector<float> values;
   for (const Cloud& view : views) {
     const Surface surface = prepareSurface(view, settings.surface, Orientation::sensor, 1);
     const Keypoints keypoints = thinned(gridKeypoints(surface, settings.keypoints.grid_size));
     addDistinct(computeDescriptors(surface, keypoints, DescriptorType::shot, settings.descriptor, 1).values, values);
   }
-  return values;
+  return QuantizedDescriptors(DescriptorMatrix(std::move(values), shot_size));
 }
 
 /// @throws like startableThreads()
@@ -57,15 +58,15 @@ int fewThreads(Settings settings) {
   return startableThreads(settings);
 }
 
-std::shared_ptr<const NearestWord> describedThings(const Settings& settings, int threads) {
-  std::vector<std::vector<float>> of_things(backgroundThings());
+QuantizedDescriptors describedThings(const Settings& settings, int threads) {
+  std::vector<QuantizedDescriptors> of_things(backgroundThings());  // a quarter of the floats
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < of_things.size(); ++i) of_things[i] = described(backgroundViews(i), settings);
-  std::vector<float> values;
-  for (const auto& one : of_things) values.insert(values.end(), one.begin(), one.end());
-  if (values.empty()) return nullptr;
-  return std::make_shared<const NearestWord>(QuantizedDescriptors(DescriptorMatrix(std::move(values), shot_size)),
-                                             SearchEffort::glance());
+  Quantizer all(shot_size);
+  for (const QuantizedDescriptors& one : of_things) {
+    for (std::size_t row = 0; row < one.rows(); ++row) all.add(one, row);
+  }
+  return all.release();
 }
 
 /// The values of all settings that the words depend on.
@@ -81,17 +82,33 @@ std::string relevant(const Settings& settings) {
 
 }  // namespace
 
-std::shared_ptr<const NearestWord> backgroundWords(const Settings& settings) {
+QuantizedDescriptors backgroundDescriptors(const Settings& settings) {
   static std::mutex mutex;
   static std::string last_settings;
-  static std::shared_ptr<const NearestWord> last_words;
+  static QuantizedDescriptors last;
   std::string wanted = relevant(settings);
   const std::lock_guard<std::mutex> lock(mutex);
   if (wanted != last_settings) {
-    last_words = describedThings(settings, fewThreads(settings));
+    last = describedThings(settings, fewThreads(settings));
     last_settings = std::move(wanted);
   }
-  return last_words;
+  return last;
+}
+
+std::shared_ptr<const NearestWord> backgroundWords(const Codebook& codebook, const Settings& settings) {
+  static std::mutex mutex;
+  static std::shared_ptr<const NearestWord> last;
+  static const std::uint8_t* last_levels = nullptr;  // which `last` keeps alive
+  const bool keeps = codebook.background.rows() > 0 && codebook.background.cols() == shot_size &&
+                     relevant(codebook.settings) == relevant(settings);
+  const QuantizedDescriptors rows = keeps ? codebook.background : backgroundDescriptors(settings);
+  if (rows.rows() == 0) return nullptr;
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (last_levels != rows.levels(0)) {
+    last = std::make_shared<const NearestWord>(rows, SearchEffort::glance());
+    last_levels = rows.levels(0);
+  }
+  return last;
 }
 
 }  // namespace sks

@@ -48,6 +48,7 @@ std::shared_ptr<Codebook> withoutObject(const Codebook& codebook, const std::str
     rows.add(codebook.descriptors, i);
   }
   rest->descriptors = rows.release();
+  rest->background = codebook.background;
   return rest;
 }
 

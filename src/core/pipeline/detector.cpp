@@ -105,7 +105,7 @@ Detector Detector::withSettings(const Settings& settings) const {
 }
 
 void Detector::findBackground() {
-  background_ = hasBackground(*codebook_, settings_) ? backgroundWords(settings_) : nullptr;
+  background_ = hasBackground(*codebook_, settings_) ? backgroundWords(*codebook_, settings_) : nullptr;
 }
 
 const VerifierStage& Detector::verifier() const {

@@ -10,7 +10,9 @@
 
 #include "core/descriptors/quantizer.hpp"
 #include "core/descriptors/shot.hpp"
+#include "core/matching/background_words.hpp"
 #include "core/pipeline/default_stages.hpp"
+#include "core/pipeline/repeated_words.hpp"
 #include "core/pipeline/scene_description.hpp"
 #include "core/settings/name_text.hpp"
 #include "core/settings/threads.hpp"
@@ -19,6 +21,7 @@ namespace sks {
 namespace {
 
 constexpr std::size_t longest_stage_name = 100;  // of a descriptor stage
+constexpr float same_place = 0.5f;               // of the keypoints' spacing: what is nearer is one place
 constexpr std::size_t views_of_thread = 8;       // of meshes that are prepared before their words are added
 
 std::shared_ptr<const DescriptorStage> trainedDescriptors(const Stages& stages, DescriptorType type) {
@@ -72,6 +75,7 @@ Eigen::Isometry3f motionOf(const TrainingView& view) {
 /// What a training cloud becomes.
 struct PreparedView {
   std::string object;
+  bool rendered = false;
   TrainingView view;
   Keypoints keypoints;
   Descriptors descriptors;
@@ -92,7 +96,8 @@ public:
         keypoints_(stages.keypoints ? stages.keypoints : std::make_shared<const ConfiguredKeypoints>()),
         descriptors_(trainedDescriptors(stages, settings.descriptor.type)),
         rows_(descriptors_->size()),
-        shot_rows_(shot_size) {
+        shot_rows_(shot_size),
+        repeated_(same_place * float(settings.keypoints.grid_size)) {
     codebook_.name = name;
     codebook_.settings = settings;
     codebook_.descriptor_type = settings.descriptor.type;
@@ -145,6 +150,7 @@ public:
   Codebook finish() {
     codebook_.settings.descriptor.type = codebook_.descriptor_type;
     codebook_.descriptors = rows_.release();
+    if (hasBackground(codebook_, codebook_.settings)) codebook_.background = backgroundDescriptors(codebook_.settings);
     return std::move(codebook_);
   }
 
@@ -162,7 +168,8 @@ private:
     const Cloud cloud = usablePoints(loaded, orientation, settings);
     checkSize(boxOf(sample, cloud));
     const Surface surface = prepareSurface(cloud, settings.surface, orientation, threads_);
-    PreparedView result{sample.object, viewOf(sample, surface, cloud), keypoints_->detect(surface, settings), {}};
+    PreparedView result{
+        sample.object, sample.rendered, viewOf(sample, surface, cloud), keypoints_->detect(surface, settings), {}};
     result.descriptors = described(*descriptors_, surface, result.keypoints, settings);
     if (result.descriptors.keypoints.empty() && !sample.rendered) {
       throw Error(ErrorCode::bad_data, "none of its " + std::to_string(result.keypoints.size()) +
@@ -186,7 +193,11 @@ private:
     const Eigen::AlignedBox3f box = boxOf(sample, cloud);
     view.box_min = box.min();
     view.box_max = box.max();
-    for (const std::uint32_t i : thinnedIndices(surface, codebook_.settings.training.surface_resolution)) {
+    const std::vector<std::uint32_t> kept = thinnedIndices(surface, codebook_.settings.training.surface_resolution);
+    view.surface_points.reserve(kept.size());  // vectors that grow hold up to twice what they need
+    view.surface_normals.reserve(kept.size());
+    view.surface_colors.reserve(surface.hasColor() ? kept.size() : 0);
+    for (const std::uint32_t i : kept) {
       if (!surface.normal(i).allFinite()) continue;
       view.surface_points.push_back(T * surface.point(i));
       view.surface_normals.push_back(T.linear() * surface.normal(i));
@@ -201,12 +212,18 @@ private:
     if (known == codebook_.objects.end()) codebook_.objects.push_back(prepared.object);
     const Eigen::Isometry3f T = motionOf(prepared.view);
     const Descriptors& descriptors = prepared.descriptors;
+    const bool may_repeat = prepared.rendered && verifiesPoses(codebook_.settings);
     for (std::size_t row = 0; row < descriptors.keypoints.size(); ++row) {
-      addDescriptor(descriptors.values.row(row));
       Codeword word;
       word.view = std::uint32_t(codebook_.views.size());
       word.position = T * prepared.keypoints.positions[descriptors.keypoints[row]];
       word.frame = descriptors.frames[row] * T.linear().transpose();
+      const float* bins = descriptors.values.row(row);
+      if (may_repeat) {
+        if (repeated_.repeats(prepared.view.frame, word, bins, rows_)) continue;
+        repeated_.add(prepared.view.frame, word, std::uint32_t(codebook_.words.size()));
+      }
+      addDescriptor(bins);
       codebook_.words.push_back(word);
     }
     codebook_.views.push_back(std::move(prepared.view));
@@ -227,6 +244,7 @@ private:
   bool may_drop_color_ = false;
   Codebook codebook_;
   Quantizer rows_, shot_rows_;  // the second while colour may be dropped
+  RepeatedWords repeated_;      // of meshes
 };
 
 }  // namespace

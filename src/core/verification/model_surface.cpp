@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "core/surface/sided_cube.hpp"
@@ -12,23 +13,38 @@
 namespace sks {
 namespace {
 
+using PointOfView = std::pair<std::uint32_t, std::uint32_t>;  // which view, and which of its points
+
+struct HashOfCube {
+  std::size_t operator()(const SidedCube& cube) const {
+    const auto [x, y, z, side] = cube;
+    constexpr std::uint64_t spread = 0x9e3779b97f4a7c15;  // odd, and its bits look random
+    std::uint64_t hash = 0;
+    for (const std::int64_t part : {std::int64_t(x), std::int64_t(y), std::int64_t(z), std::int64_t(side)}) {
+      hash = (hash ^ std::uint64_t(part)) * spread;
+      hash ^= hash >> 32;
+    }
+    return std::size_t(hash);
+  }
+};
+
 ModelSurface merged(const Codebook& codebook, std::vector<std::uint32_t> views) {
   const float resolution = float(codebook.settings.training.surface_resolution);
-  std::vector<std::pair<SidedCube, std::pair<std::uint32_t, std::uint32_t>>> all;  // and which point of which view
+  std::unordered_map<SidedCube, PointOfView, HashOfCube> first;  // that lies in each cube
   bool colored = true;
   for (const std::uint32_t v : views) {
     const TrainingView& view = codebook.views[v];
     colored = colored && !view.surface_colors.empty();
     for (std::uint32_t i = 0; i < view.surface_points.size(); ++i) {
-      all.push_back({sidedCube(view.surface_points[i], view.surface_normals[i], resolution), {v, i}});
+      first.try_emplace(sidedCube(view.surface_points[i], view.surface_normals[i], resolution), PointOfView{v, i});
     }
   }
-  std::sort(all.begin(), all.end());
+  std::vector<std::pair<SidedCube, PointOfView>> all(first.begin(), first.end());
+  std::sort(all.begin(), all.end());  // few of many: most points of the views share their cubes
   ModelSurface surface;
   surface.resolution = resolution;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    if (k > 0 && all[k].first == all[k - 1].first) continue;
-    const auto [v, i] = all[k].second;
+  for (const auto& [cube, point] : all) {
+    const auto [v, i] = point;
     const TrainingView& view = codebook.views[v];
     surface.points.push_back(view.surface_points[i]);
     surface.normals.push_back(view.surface_normals[i]);

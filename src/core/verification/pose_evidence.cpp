@@ -84,7 +84,7 @@ PoseEvidence examinePose(const TrainingView& view, const SurfaceWeights& surface
                          const Settings& settings, const Eigen::Isometry3d& T_scene_model, std::size_t most_points,
                          CorrespondenceSearch search) {
   const VerificationSettings& verification = settings.verification;
-  const std::size_t stride = view.surface_points.size() / most_points + 1;
+  const std::size_t stride = strideFor(view, most_points);
   const double area = double(stride) * settings.training.surface_resolution * settings.training.surface_resolution;
   const float distance = float(verification.support_distance);
   const float agreement = float(std::cos(verification.support_angle));

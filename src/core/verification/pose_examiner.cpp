@@ -42,7 +42,7 @@ double coverageOf(const PoseEvidence& pose) {
 }  // namespace
 
 VerifiedModels::VerifiedModels(std::shared_ptr<const Codebook> models, int threads)
-    : codebook(std::move(models)), surfaces(modelSurfaces(*codebook, threads)), weights(codebook->views) {
+    : codebook(std::move(models)), surfaces(modelSurfaces(*codebook, threads)), weights(codebook->views, first_points) {
   const std::vector<TrainingView>& views = codebook->views;
   rough.resize(views.size());
   std::vector<std::vector<RestingPose>> rests(views.size());
@@ -204,8 +204,9 @@ Hypothesis PoseExaminer::finished(const Hypothesis& hypothesis) const {
   if (!registered || scene_.comparesColor(view)) return best;
   // By its shape alone a box hardly differs from the box turned around. A larger area says nothing here.
   const auto agreement = [&](const Hypothesis& h) {
-    const PoseEvidence pose = examinePose(codebook_.views[h.view], models_.weights[h.view], scene_, settings_,
-                                          h.T_scene_model, last_points, CorrespondenceSearch::along_ray);
+    const TrainingView& turned = codebook_.views[h.view];
+    const PoseEvidence pose = examinePose(turned, models_.weights.at(h.view, strideFor(turned, last_points)), scene_,
+                                          settings_, h.T_scene_model, last_points, CorrespondenceSearch::along_ray);
     return fractionOf(pose) * std::sqrt(coverageOf(pose)) * sightLines(h).agreement();
   };
   return bestOfTurned(
@@ -216,8 +217,8 @@ double PoseExaminer::evidenceAt(Hypothesis& hypothesis, PoseEvidence& pose, std:
                                 CorrespondenceSearch search) const {
   const TrainingView& view = codebook_.views[hypothesis.view];
   place(hypothesis);
-  pose = examinePose(view, models_.weights[hypothesis.view], scene_, settings_, hypothesis.T_scene_model, most_points,
-                     search);
+  pose = examinePose(view, models_.weights.at(hypothesis.view, strideFor(view, most_points)), scene_, settings_,
+                     hypothesis.T_scene_model, most_points, search);
   const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();
   return evidenceOf(pose, hypothesis.view, hypothesis.stands, center, hypothesis.density);
 }

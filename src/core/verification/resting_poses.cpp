@@ -76,14 +76,27 @@ Eigen::Vector3f fallen(Eigen::Vector3f down, const Rows& outer, const Eigen::Vec
   return down;
 }
 
+/// Few are: those of a block are looked at only if its highest is one of them, which SIMD lanes tell.
+template <typename Function>
+void forEachAbove(const Eigen::VectorXf& heights, float limit, Function&& f) {
+  constexpr Eigen::Index block = 32;
+  for (Eigen::Index begin = 0; begin < heights.size(); begin += block) {
+    const Eigen::Index size = std::min(block, heights.size() - begin);
+    if (!(heights.segment(begin, size).maxCoeff() > limit)) continue;
+    for (Eigen::Index i = begin; i < begin + size; ++i) {
+      if (heights[i] > limit) f(i);
+    }
+  }
+}
+
 /// The direction in which the touching parts of the surface face.
 Eigen::Vector3f settled(const Rows& points, const Rows& normals, const Eigen::Vector3f& down) {
   const Eigen::VectorXf& heights = heightsOf(points, down);
   const float floor = heights.maxCoeff();
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (Eigen::Index i = 0; i < heights.size(); ++i) {
-    if (heights[i] > floor - touching && normals.row(i).dot(down) > touching_agreement) sum += normals.row(i);
-  }
+  forEachAbove(heights, floor - touching, [&](Eigen::Index i) {
+    if (normals.row(i).dot(down) > touching_agreement) sum += normals.row(i);
+  });
   return sum.norm() > 0 ? Eigen::Vector3f(sum.normalized()) : down;
 }
 
@@ -94,10 +107,10 @@ bool isSupported(const Rows& points, const Eigen::Vector3f& down, const Eigen::V
   const float floor = heights.maxCoeff();
   const Eigen::Vector3f u = down.unitOrthogonal(), v = down.cross(u);
   std::vector<float> angles;
-  for (Eigen::Index i = 0; i < heights.size(); ++i) {
+  forEachAbove(heights, floor - touching, [&](Eigen::Index i) {
     const Eigen::Vector3f p = points.row(i).transpose() - center;
-    if (heights[i] > floor - touching) angles.push_back(std::atan2(v.dot(p), u.dot(p)));
-  }
+    angles.push_back(std::atan2(v.dot(p), u.dot(p)));
+  });
   std::sort(angles.begin(), angles.end());
   float widest_gap = angles.front() + float(2 * EIGEN_PI) - angles.back();
   for (std::size_t i = 1; i < angles.size(); ++i) widest_gap = std::max(widest_gap, angles[i] - angles[i - 1]);
