@@ -147,6 +147,15 @@ std::size_t Renderer::instanceCount() const {
   return impl_->instances.size();
 }
 
+void Renderer::moveInstance(std::size_t instance, const Eigen::Isometry3d& T_world_mesh) {
+  Impl::Instance& moved = impl_->instances[instance];
+  const Eigen::Matrix<float, 3, 4> transform = toEmbree(T_world_mesh);
+  rtcSetGeometryTransform(moved.geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
+  rtcCommitGeometry(moved.geometry);
+  moved.R_world_mesh = transform.leftCols<3>();
+  rtcCommitScene(impl_->world);
+}
+
 void Renderer::setVisible(std::size_t instance, bool visible) {
   const RTCGeometry geometry = impl_->instances[instance].geometry;
   if (visible) {

@@ -36,6 +36,8 @@ public:
   /// do @return number of the instance: Rendering::instance
   std::size_t addInstance(std::size_t mesh, const Eigen::Isometry3d& T_world_mesh, double lost = 0);
   std::size_t instanceCount() const;
+  /// Places an instance anew.
+  void moveInstance(std::size_t instance, const Eigen::Isometry3d& T_world_mesh);
   /// Hides an instance, or shows it again.
   void setVisible(std::size_t instance, bool visible);
 
