@@ -213,7 +213,7 @@ Eigen::AlignedBox2i Renderer::Impl::window(const CameraModel& camera, const Eige
 }
 
 Rendering Renderer::render(const CameraModel& camera, const Eigen::Isometry3d& T_world_camera, std::uint64_t frame,
-                           int threads) const {
+                           std::uint64_t colors, int threads) const {
   validate(camera);
   Rendering result;
   Cloud& cloud = result.cloud;
@@ -228,7 +228,7 @@ Rendering Renderer::render(const CameraModel& camera, const Eigen::Isometry3d& T
   const Eigen::Vector3f projector = (T_world_camera * Eigen::Vector3d(camera.baseline, 0, 0)).cast<float>();
   const CameraNoise& noise = camera.noise;
   const DepthErrors errors(camera, frame, threads);
-  const ColorDraw draw(camera.color, noise.seed, frame);
+  const ColorDraw draw(camera.color, noise.seed, colors);
   const bool developed = camera.color.any();
   std::vector<Eigen::Vector3f> light(developed ? pixels : 0, Eigen::Vector3f::Zero());
   std::vector<float> true_depth(errors.needsEdges() ? pixels : 0, far);

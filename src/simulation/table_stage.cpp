@@ -166,7 +166,7 @@ SimulatedScene TableStage::look(const Eigen::Isometry3d& T_table_camera, std::ui
   scene.T_table_camera = T_table_camera;
   CameraModel camera = options_.camera;
   camera.noise.seed = options_.seed;
-  scene.view = renderer_.render(camera, T_table_camera, picture, options_.threads);
+  scene.view = renderer_.render(camera, T_table_camera, picture, number_, options_.threads);
   const std::vector<double> visible = visibilities(T_table_camera, scene.view);
   const std::vector<std::size_t> points = pixelCounts(scene.view, true);
   for (std::size_t i = 0; i < things_.size(); ++i) {

@@ -40,7 +40,7 @@ public:
   void moveInstance(std::size_t instance, const Eigen::Isometry3d& T_table_mesh);
   void hideInstance(std::size_t instance);
 
-  /// @param picture number of the picture, which chooses its noise
+  /// @param picture number of the picture, which chooses its noise; exposure and light are those of the stage
   SimulatedScene look(const Eigen::Isometry3d& T_table_camera, std::uint64_t picture);
 
 private:

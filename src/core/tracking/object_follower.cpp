@@ -14,9 +14,10 @@
 namespace sks {
 namespace {
 
-constexpr double margin = 0.03;         // [m] around the box: what the outline and the plane below need
-constexpr double points_in_normal = 3;  // spacings of the points of a crop within the radius of a normal
-constexpr double fewest_points = 50;    // of a crop: else nothing can be said
+constexpr double margin = 0.03;       // [m] around the box: what the outline and the plane below need
+constexpr double quick_points = 3;    // spacings of the points of a quick look within the radius of a normal
+constexpr float flat = 0.03f;         // [m] what is thinner may lie within the tolerance of the plane below it
+constexpr double fewest_points = 50;  // of a crop: else nothing can be said
 
 Settings oneThread(Settings settings) {
   settings.threads = 1;
@@ -33,8 +34,8 @@ ObjectFollower::ObjectFollower(std::shared_ptr<const VerifiedModels> models, con
     : models_(std::move(models)), settings_(oneThread(settings)), no_votes_(models_->codebook->objects.size()) {}
 
 FollowedObject ObjectFollower::follow(const Cloud& cloud, const Hypothesis& expected,
-                                      const std::vector<Eigen::Isometry3d>& starts,
-                                      const Eigen::Vector3f& color_shift) const {
+                                      const std::vector<Eigen::Isometry3d>& starts, const Eigen::Vector3f& color_shift,
+                                      Look look) const {
   const Codebook& codebook = *models_->codebook;
   const TrainingView& view = codebook.views[expected.view];
   FollowedObject followed{expected, 1, 0, {}};
@@ -42,7 +43,8 @@ FollowedObject ObjectFollower::follow(const Cloud& cloud, const Hypothesis& expe
   followed.hypothesis.T_scene_model = starts.front();
   const Eigen::Isometry3d T_cloud_box = starts.front() * Eigen::Translation3d(view.center().cast<double>());
   const Eigen::Vector3d half = 0.5 * view.extent().cast<double>() + Eigen::Vector3d::Constant(margin);
-  const ObjectCrop crop = cropAround(cloud, T_cloud_box, half, settings_.surface.normal_radius / points_in_normal);
+  const double spacing = look == Look::quick ? settings_.surface.normal_radius / quick_points : 0;
+  const ObjectCrop crop = cropAround(cloud, T_cloud_box, half, spacing);
   if (double(crop.cloud.size()) < fewest_points) return followed;
   Surface surface;
   try {
@@ -55,7 +57,7 @@ FollowedObject ObjectFollower::follow(const Cloud& cloud, const Hypothesis& expe
   SceneView scene(surface, settings_, 1);
   scene.color_shift = color_shift;
   const float largest = view.extent().norm();
-  scene.rises = findStandingThings(surface, scene.planes, largest).rises;
+  if (view.extent().minCoeff() < flat) scene.rises = findStandingThings(surface, scene.planes, largest).rises;
 
   const PoseExaminer examiner(*models_, scene, no_votes_, settings_);
   Examined best;

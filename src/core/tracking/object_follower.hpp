@@ -18,10 +18,16 @@ namespace sks {
 
 /// An object in one cloud, where it was expected.
 struct FollowedObject {
-  Hypothesis hypothesis;                       ///< the pose that fits best, with its evidence in this cloud
+  Hypothesis hypothesis;                       ///< the pose that fits best, with its evidence, of a full look
   double hidden = 1;                           ///< share of what faces the sensor that is behind something else
   double confirmed = 0;                        ///< share of what should be seen that the cloud confirms, in [0, 1]
   std::optional<Eigen::Vector3f> color_shift;  ///< as in SightLines, of the whole shift
+};
+
+/// How closely an object is looked at.
+enum class Look {
+  quick,  ///< enough for its pose, and whether it is there: rows and columns of the cloud are left out
+  full    ///< by all points, as a detection is
 };
 
 /// Standard deviation of a depth that a structured-light or stereo camera measures at a range [m] (Nguyen, Izadi,
@@ -39,7 +45,7 @@ public:
   /// @param starts poses T_cloud_model in which it may be now, at least one
   /// @param color_shift SceneView::color_shift
   FollowedObject follow(const Cloud& cloud, const Hypothesis& expected, const std::vector<Eigen::Isometry3d>& starts,
-                        const Eigen::Vector3f& color_shift) const;
+                        const Eigen::Vector3f& color_shift, Look look) const;
 
 private:
   std::shared_ptr<const VerifiedModels> models_;

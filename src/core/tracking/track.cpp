@@ -10,13 +10,11 @@
 namespace sks {
 namespace {
 
-constexpr double pooling = 0.3;        // [s] after which a cloud counts a third in the pooled evidence
-constexpr double kept_past = 5;        // [s] within which the detection of an earlier cloud has to arrive
-constexpr double mostly_hidden = 0.3;  // share of the surface: then little evidence speaks neither way
-constexpr double agrees = 0.5;         // least share of what should be seen that the cloud has to confirm
-constexpr double least_in_sight =
-    0.2;  // share of the surface that faces the sensor without which a pose is not measured
-constexpr double lowest_evidence = 0.3;  // of that which scores 0.5: nothing is there
+constexpr double pooling = 1.5;          // [s] after which a full look has lost two thirds of its say in the evidence
+constexpr double kept_past = 5;          // [s] within which the detection of an earlier cloud has to arrive
+constexpr double mostly_hidden = 0.3;    // share of the surface: then little evidence speaks neither way
+constexpr double agrees = 1.0 / 3;       // least share of what should be seen that a cloud has to confirm
+constexpr double least_in_sight = 0.2;   // share of the surface that faces the sensor: with less no pose is measured
 constexpr double least_evidence = 1e-6;  // whose logarithm is taken
 
 }  // namespace
@@ -29,7 +27,7 @@ Track::Track(std::uint32_t id, Hypothesis found, const Eigen::Isometry3d& T_refe
       filter_(T_reference_model, center, stamp),
       begun_(stamp),
       seen_at_(stamp),
-      stamp_(stamp) {
+      examined_at_(stamp) {
   remember(stamp);
 }
 
@@ -37,16 +35,13 @@ double Track::score(const Settings& settings) const {
   return scoreOfEvidence(hypothesis_, settings);
 }
 
-void Track::update(const FollowedObject& followed, const Eigen::Isometry3d& T_reference_cloud, double stamp,
-                   double range, const Settings& settings) {
-  const double evidence = followed.hypothesis.evidence;
-  const bool partly_hidden = followed.hidden > mostly_hidden, fits = followed.confirmed >= agrees;
-  const bool enough = evidence >= lowest_evidence * settings.verification.half_evidence;
+void Track::update(const FollowedObject& followed, Look look, const Eigen::Isometry3d& T_reference_cloud, double stamp,
+                   double range) {
+  const bool partly_hidden = followed.hidden > mostly_hidden;
   // A part in sight that agrees, however small, says that the object is still there.
-  seen_ = fits && (enough || partly_hidden) && 1 - followed.hidden >= least_in_sight;
+  seen_ = followed.confirmed >= agrees && 1 - followed.hidden >= least_in_sight;
   hidden_ = !seen_ && partly_hidden;
-  const bool speaks = !partly_hidden || evidence > hypothesis_.evidence;
-  const double pooled = hypothesis_.evidence, seconds = std::max(0.0, stamp - stamp_);
+  const double evidence = followed.hypothesis.evidence, pooled = hypothesis_.evidence;
   if (seen_) {
     hypothesis_ = followed.hypothesis;
     hypothesis_.evidence = pooled;
@@ -54,8 +49,10 @@ void Track::update(const FollowedObject& followed, const Eigen::Isometry3d& T_re
     seen_at_ = stamp;
     confirmed_ = true;
   }
-  if (speaks) pool(evidence, seconds);
-  stamp_ = stamp;
+  if (look == Look::full) {
+    if (!partly_hidden || evidence > pooled) pool(evidence, stamp - examined_at_);
+    examined_at_ = stamp;
+  }
   remember(stamp);
 }
 
@@ -63,6 +60,7 @@ void Track::foundAgain(const Hypothesis& found, const Eigen::Isometry3d& T_refer
   hypothesis_ = found;
   filter_ = PoseFilter(T_reference_model, center_, stamp);
   seen_at_ = std::max(seen_at_, stamp);
+  confirmed_ = false;
 }
 
 void Track::restart(const Eigen::Isometry3d& T_reference_model, double stamp) {
@@ -78,7 +76,7 @@ Eigen::Isometry3d Track::poseAt(double stamp) const {
 
 /// Evidence multiplies, so its logarithms are averaged.
 void Track::pool(double evidence, double seconds) {
-  const double share = 1 - std::exp(-seconds / pooling);
+  const double share = 1 - std::exp(-std::max(seconds, 0.0) / pooling);
   const double logarithm = (1 - share) * std::log(std::max(hypothesis_.evidence, least_evidence)) +
                            share * std::log(std::max(evidence, least_evidence));
   hypothesis_.evidence = std::exp(logarithm);

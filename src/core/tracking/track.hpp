@@ -33,10 +33,12 @@ public:
   bool confirmed() const { return confirmed_; }  ///< by another cloud than the one that it was found in
   double begun() const { return begun_; }        ///< [s]
   double seenAt() const { return seen_at_; }     ///< [s]
+  /// By a full look, or the detection that it began with [s].
+  double examinedAt() const { return examined_at_; }
 
   /// What a new cloud shows. @param T_reference_cloud of that cloud
-  void update(const FollowedObject& followed, const Eigen::Isometry3d& T_reference_cloud, double stamp, double range,
-              const Settings& settings);
+  void update(const FollowedObject& followed, Look look, const Eigen::Isometry3d& T_reference_cloud, double stamp,
+              double range);
   /// It was found somewhere else, and is still the same object.
   void foundAgain(const Hypothesis& found, const Eigen::Isometry3d& T_reference_model, double stamp);
   /// Begins with another reference frame, in which nothing is known of its motion.
@@ -59,7 +61,8 @@ private:
   PoseFilter filter_;
   std::deque<Past> past_;
   bool seen_ = true, hidden_ = false, confirmed_ = false;
-  double begun_, seen_at_, stamp_;
+  double begun_, seen_at_;
+  double examined_at_;
 };
 
 }  // namespace sks

@@ -17,10 +17,11 @@
 namespace sks {
 namespace {
 
-constexpr double sure_score = 0.9;  // what is seen with this score need not be searched for
-constexpr double better = 1.25;     // times the evidence with which a detection takes the place of a track
-constexpr double fastest = 1.0;     // [m/s] that a lost object is moved by a hand
-constexpr double color_doubt = 2;   // as many good objects it takes to tell light from a wrong object
+constexpr double examination = 0.5;  // [s] between full looks at an object
+constexpr double sure_score = 0.9;   // what is seen with this score need not be searched for
+constexpr double better = 1.25;      // times the evidence with which a detection takes the place of a track
+constexpr double fastest = 1.0;      // [m/s] that a lost object is moved by a hand
+constexpr double color_doubt = 2;    // as many good objects it takes to tell light from a wrong object
 
 double timeOrNever(bool ever, double stamp) {
   return ever ? stamp : -std::numeric_limits<double>::infinity();
@@ -47,7 +48,8 @@ struct Tracker::State {
   }
 
   void enter(const CloudView& view);
-  std::vector<FollowedObject> look(const Cloud& cloud, const CloudView& view) const;
+  std::vector<Look> looks(double stamp) const;
+  std::vector<FollowedObject> look(const Cloud& cloud, const CloudView& view, const std::vector<Look>& looks) const;
   void dropDoubles();
   void dropOld(double stamp);
   TrackedObject told(const Track& track, double stamp) const;
@@ -84,7 +86,19 @@ void Tracker::State::enter(const CloudView& view) {
   followed = true;
 }
 
-std::vector<FollowedObject> Tracker::State::look(const Cloud& cloud, const CloudView& view) const {
+/// A full look at the object that waits longest for it, if one does: more of them in one cloud would hold it up.
+std::vector<Look> Tracker::State::looks(double now) const {
+  std::vector<Look> looks(tracks.size(), Look::quick);
+  const auto longest = std::min_element(tracks.begin(), tracks.end(),
+                                        [](const Track& a, const Track& b) { return a.examinedAt() < b.examinedAt(); });
+  if (longest != tracks.end() && now - longest->examinedAt() >= examination) {
+    looks[std::size_t(longest - tracks.begin())] = Look::full;
+  }
+  return looks;
+}
+
+std::vector<FollowedObject> Tracker::State::look(const Cloud& cloud, const CloudView& view,
+                                                 const std::vector<Look>& looks) const {
   std::vector<FollowedObject> found(tracks.size());
   const Eigen::Isometry3d T_cloud_reference = T_reference_cloud.inverse();
 #pragma omp parallel for schedule(dynamic, 1) num_threads(startableThreads(settings()))
@@ -92,7 +106,7 @@ std::vector<FollowedObject> Tracker::State::look(const Cloud& cloud, const Cloud
     const PoseFilter& filter = tracks[i].filter();
     std::vector<Eigen::Isometry3d> starts{T_cloud_reference * filter.predicted(view.stamp)};
     if (!filter.stands()) starts.push_back(T_cloud_reference * filter.pose());  // or it has stopped
-    found[i] = follower.follow(cloud, tracks[i].hypothesis(), starts, color_shift);
+    found[i] = follower.follow(cloud, tracks[i].hypothesis(), starts, color_shift, looks[i]);
   }
   return found;
 }
@@ -211,12 +225,13 @@ Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 std::vector<TrackedObject> Tracker::follow(const Cloud& cloud, const CloudView& view) {
   State& s = *state_;
   s.enter(view);
-  const std::vector<FollowedObject> found = s.look(cloud, view);
+  const std::vector<Look> looks = s.looks(view.stamp);
+  const std::vector<FollowedObject> found = s.look(cloud, view, looks);
   std::vector<Examined> colors;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Eigen::Vector3d place = found[i].hypothesis.T_scene_model * s.tracks[i].center();
     const double range = (place - cloud.sensor_origin.cast<double>()).norm();
-    s.tracks[i].update(found[i], s.T_reference_cloud, view.stamp, range, s.settings());
+    s.tracks[i].update(found[i], looks[i], s.T_reference_cloud, view.stamp, range);
     Examined examined;
     examined.hypothesis = found[i].hypothesis;
     examined.lines.color_shift = found[i].color_shift;
