@@ -47,7 +47,7 @@ protected:
     put("duck", -0.15, 0);
     put("drill", 0.13, 0.05);
     cover_ = renderer_.addInstance(renderer_.addMesh(std::make_shared<const Mesh>(makeBox({0.3f, 0.02f, 0.4f}, paint))),
-                                   Eigen::Isometry3d(Eigen::Translation3d(-0.25, -0.25, 0.25)));
+                                   Eigen::Isometry3d(Eigen::Translation3d(-0.15, -0.25, 0.2)));
     renderer_.setVisible(cover_, false);
   }
 
