@@ -8,6 +8,8 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <sks_detector/error.hpp>
+
 namespace sks_detector {
 namespace {
 
@@ -63,7 +65,11 @@ void ObjectTracking::begin(const std::shared_ptr<const sks::Detector>& detector)
 
 void ObjectTracking::takeFinishedSearch() {
   if (!search_.valid() || search_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-  tracker_->take(std::exchange(search_, {}).get(), searched_);
+  try {
+    tracker_->take(std::exchange(search_, {}).get(), searched_);
+  } catch (const sks::Error&) {
+    if (tracker_->size() == 0) throw;  // else what is followed goes on, and the next search tells
+  }
 }
 
 void ObjectTracking::startSearch(const std::shared_ptr<const sks::Cloud>& cloud, const sks::CloudView& view) {
