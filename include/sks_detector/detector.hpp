@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include <sks_detector/cloud.hpp>
 #include <sks_detector/codebook.hpp>
@@ -14,6 +15,7 @@ namespace sks {
 
 class NearestWord;
 class ObjectMatcher;
+struct VerifiedModels;
 
 /// Finds the objects of a codebook in clouds: composes the stages of section 3.2. Immutable but for assignment: several
 /// threads may call detect() of one Detector at the same time. Same cloud, same result, for any number of threads and
@@ -39,14 +41,18 @@ public:
 
   /// @param cloud in metres, in any frame; its sensor_origin is where it was seen from
   /// @param inspection where given, is filled with the intermediate results
+  /// @param occupied where objects are known to be: there is no search there
   /// @return detections in the frame of the cloud, best first, whatever their score; see DetectionResult::above()
   /// @throws Error(bad_data) for an unusable cloud, Error(incompatible) for a cloud without colour with CSHOT
-  DetectionResult detect(const Cloud& cloud, Inspection* inspection = nullptr) const;
+  DetectionResult detect(const Cloud& cloud, Inspection* inspection = nullptr,
+                         const std::vector<OccupiedBox>& occupied = {}) const;
 
   const Codebook& codebook() const { return *codebook_; }
   const Settings& settings() const { return settings_; }
 
 private:
+  friend class Tracker;
+
   const VerifierStage& verifier() const;
   void findBackground();
 
@@ -55,6 +61,7 @@ private:
   Stages stages_;  // the verifier only where it is the user's
   std::shared_ptr<const ObjectMatcher> matcher_;
   std::shared_ptr<const NearestWord> background_;  // none: nothing competes with the codebook
+  std::shared_ptr<const VerifiedModels> models_;   // none: the verifier is the user's
   std::shared_ptr<const VerifierStage> surface_verifier_, hough_verifier_;
 };
 

@@ -353,6 +353,21 @@ struct TrainingSettings {
   }
 };
 
+struct TrackingSettings {
+  double redetect = 2.0;
+  double max_age = 2.0;
+
+  template <typename Self, typename Visitor>
+  static void visit(Self& s, Visitor&& v) {
+    v(s.redetect, "redetect", Range{0.1, 3600}, "s",
+      "while objects are followed, the rest of the scene is searched for new ones this often, and when one is lost; "
+      "smaller: what is new is found sooner, but less of the processor is left");
+    v(s.max_age, "max_age", Range{0.1, 60}, "s",
+      "an object that was not seen for so long is no longer followed; larger: it keeps its identity while it is hidden "
+      "for longer, but is remembered where it may be gone");
+  }
+};
+
 /// Everything that can be set. Groups are the first part of a key: `keypoints.discard`.
 struct Settings {
   SanitizeSettings sanitize;
@@ -365,6 +380,7 @@ struct Settings {
   RefinementSettings refinement;
   VerificationSettings verification;
   DetectionSettings detection;
+  TrackingSettings tracking;
   TrainingSettings training;
   int threads = 0;
 
@@ -380,6 +396,7 @@ struct Settings {
     v.group("refinement", s.refinement);
     v.group("verification", s.verification);
     v.group("detection", s.detection);
+    v.group("tracking", s.tracking);
     v.group("training", s.training);
     v(s.threads, "threads", Range{0, 256}, "",
       "threads for training and detection; smaller: slower, but more of the processor is left to other programs; 0: "

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/detection_output.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include <geometry_msgs/TransformStamped.h>
@@ -28,6 +30,17 @@ constexpr std::uint32_t transform_queue = 100;  // as tf2_ros has it
 
 // Transforms of a stamp near the end of time make tf2, and so other nodes, throw.
 constexpr double furthest_ahead = 3600;  // [s]
+
+/// Detections in the order in which those of one object are numbered: followed ones keep their numbers while all are
+/// seen, others are numbered by their score.
+std::vector<std::size_t> numberedOrder(const DetectionArray& detections) {
+  std::vector<std::size_t> order(detections.detections.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return detections.detections[a].id < detections.detections[b].id;
+  });
+  return order;
+}
 
 /// Publishes a cloud in the frame of the header, if somebody listens.
 void publishCloud(const ros::Publisher& publisher, const sks::Cloud& cloud, const Eigen::Isometry3d& T_target_cloud,
@@ -139,7 +152,8 @@ void DetectionOutput::broadcastPoses(const DetectionArray& detections, const Nod
   }
   tf2_msgs::TFMessage message;
   std::map<std::string, int> count;
-  for (const Detection& detection : detections.detections) {
+  for (const std::size_t index : numberedOrder(detections)) {
+    const Detection& detection = detections.detections[index];
     geometry_msgs::TransformStamped transform;
     transform.header = detections.header;
     transform.child_frame_id = detectionFrame(settings, detection.object, ++count[detection.object]);

@@ -52,7 +52,8 @@ DetectorNode::DetectorNode(const ros::NodeHandle& private_handle, const Paramete
       input_(private_handle),
       frame_detector_(slot_, transforms_),
       output_(control_handle_, [this] { updateWanted(); }),
-      diagnostics_(control_handle_, board_, input_, statistics_, [this] { return nodeSettings().silence_warning; }),
+      diagnostics_(control_handle_, {board_, input_, statistics_, tracking_},
+                   [this] { return nodeSettings().silence_warning; }),
       control_spinner_(1, &control_queue_) {
   for (const std::string& warning : parameters.warnings) ROS_WARN_STREAM(warning);
   for (const std::string& error : parameters.errors) refuse(parameter_error, error);
@@ -153,7 +154,13 @@ void DetectorNode::process(const CloudInput::Frame& frame) {
 
 bool DetectorNode::detect(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings, FrameResult& result) {
   try {
-    result = frame_detector_.detect(cloud, settings, output_.wantedExtras());
+    if (settings.tracking) {
+      result = frame_detector_.follow(cloud, settings, output_.wantedExtras(), tracking_);
+      if (!result.warning.empty()) errors_.warning("fixed_frame", result.warning);
+    } else {
+      tracking_.clear();
+      result = frame_detector_.detect(cloud, settings, output_.wantedExtras());
+    }
     return true;
   } catch (const std::exception& error) {
     errors_.error(cloud_error, "cloud of " + input_.topic() + ": " + error.what());
@@ -231,7 +238,8 @@ void DetectorNode::watchSilence() {
 
 void DetectorNode::listenToTransforms() {
   const NodeSettings settings = nodeSettings();
-  if (!settings.target_frame.empty() || !settings.sensor_frame.empty()) transforms_.listen();
+  const bool follows = settings.tracking && !settings.fixed_frame.empty();
+  if (follows || !settings.target_frame.empty() || !settings.sensor_frame.empty()) transforms_.listen();
 }
 
 void DetectorNode::advertiseTransforms() {

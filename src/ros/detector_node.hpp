@@ -19,6 +19,7 @@
 #include "ros/error_report.hpp"
 #include "ros/frame_detector.hpp"
 #include "ros/frame_statistics.hpp"
+#include "ros/object_tracking.hpp"
 #include "ros/parameters.hpp"
 #include "ros/reconfigure.hpp"
 #include "ros/services.hpp"
@@ -81,6 +82,7 @@ private:
   FrameStatistics statistics_;
   CloudInput input_;
   FrameDetector frame_detector_;
+  ObjectTracking tracking_;
   std::mutex wanting_;
   DetectionOutput output_;
   Diagnostics diagnostics_;

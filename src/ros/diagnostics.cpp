@@ -44,17 +44,16 @@ const char* describe(std::uint8_t state) {
 
 }  // namespace
 
-Diagnostics::Diagnostics(const ros::NodeHandle& private_handle, const StatusBoard& board, const CloudInput& input,
-                         const FrameStatistics& statistics, std::function<double()> silence_limit)
-    : board_(board),
-      input_(input),
-      statistics_(statistics),
+Diagnostics::Diagnostics(const ros::NodeHandle& private_handle, const DiagnosedParts& parts,
+                         std::function<double()> silence_limit)
+    : parts_(parts),
       silence_limit_(std::move(silence_limit)),
       updater_(private_handle, private_handle, private_handle.getNamespace()) {
   updater_.setHardwareID("none");
   updater_.add("State", this, &Diagnostics::reportState);
   updater_.add("Input", this, &Diagnostics::reportInput);
   updater_.add("Detection", this, &Diagnostics::reportDetection);
+  updater_.add("Tracking", this, &Diagnostics::reportTracking);
   updater_.add("Codebook", this, &Diagnostics::reportCodebook);
   updater_.add("Process", this, &Diagnostics::reportProcess);
 }
@@ -68,7 +67,7 @@ void Diagnostics::reset() {
 }
 
 void Diagnostics::reportState(Status& status) {
-  const sks_detector::Status state = board_.current();
+  const sks_detector::Status state = parts_.board.current();
   const bool fails = state.state == sks_detector::Status::NO_CODEBOOK || state.state == sks_detector::Status::FAILING;
   status.summary(fails ? DiagnosticStatus::ERROR : DiagnosticStatus::OK, describe(state.state));
   if (!state.progress.empty()) {
@@ -79,24 +78,25 @@ void Diagnostics::reportState(Status& status) {
 }
 
 void Diagnostics::reportInput(Status& status) {
-  const CloudInput::Counts counts = input_.counts();
-  const FrameStatistics::Summary summary = statistics_.summary();
-  const double silence = input_.silence(), limit = silence_limit_();
-  if (input_.lacksMaster()) {
+  const CloudInput::Counts counts = parts_.input.counts();
+  const FrameStatistics::Summary summary = parts_.statistics.summary();
+  const double silence = parts_.input.silence(), limit = silence_limit_();
+  if (parts_.input.lacksMaster()) {
     status.summary(DiagnosticStatus::WARN, "not subscribed: " + masterIsAway());
-  } else if (!input_.subscribed()) {
+  } else if (!parts_.input.subscribed()) {
     status.summary(DiagnosticStatus::OK, "not subscribed");
   } else if (limit > 0 && silence > limit) {
-    status.summary(DiagnosticStatus::WARN, "no cloud on " + input_.topic() + sks::formatted(" for %.0f s: ", silence) +
-                                               input_.describePublishers());
+    status.summary(DiagnosticStatus::WARN, "no cloud on " + parts_.input.topic() +
+                                               sks::formatted(" for %.0f s: ", silence) +
+                                               parts_.input.describePublishers());
   } else if (summary.too_old > too_old_) {
     status.summaryf(DiagnosticStatus::WARN, "clouds are dropped by ~max_input_age: they are %.2f s old", summary.age);
   } else {
     status.summary(DiagnosticStatus::OK, "receiving");
   }
   too_old_ = summary.too_old;
-  status.add("topic", input_.topic());
-  status.add("publishers", input_.publishers());
+  status.add("topic", parts_.input.topic());
+  status.add("publishers", parts_.input.publishers());
   status.addf("rate [Hz]", "%.2f", inputRate());
   status.addf("age [s]", "%.3f", summary.age);
   status.add("received", counts.received);
@@ -106,9 +106,9 @@ void Diagnostics::reportInput(Status& status) {
 }
 
 void Diagnostics::reportDetection(Status& status) {
-  const FrameStatistics::Summary summary = statistics_.summary();
+  const FrameStatistics::Summary summary = parts_.statistics.summary();
   if (summary.unusable > unusable_) {
-    const std::string reason = board_.current().last_error;  // gone where a good cloud came since
+    const std::string reason = parts_.board.current().last_error;  // gone where a good cloud came since
     status.summary(DiagnosticStatus::ERROR,
                    reason.empty() ? "some clouds cannot be used: see the log" : "clouds cannot be used: " + reason);
   } else if (summary.frames == 0) {
@@ -124,8 +124,22 @@ void Diagnostics::reportDetection(Status& status) {
   status.add("unusable", summary.unusable);
 }
 
+void Diagnostics::reportTracking(Status& status) {
+  const ObjectTracking::Summary summary = parts_.tracking.summary();
+  if (summary.active) {
+    status.summaryf(DiagnosticStatus::OK, "%d objects followed", int(summary.tracks));
+  } else {
+    status.summary(DiagnosticStatus::OK, "off: every cloud is searched anew");
+  }
+  status.add("objects", summary.tracks);
+  status.add("begun", summary.counts.begun);
+  status.add("lost", summary.counts.lost);
+  status.add("found again", summary.counts.found_again);
+  status.add("identity changes", summary.counts.identity_changes);
+}
+
 void Diagnostics::reportCodebook(Status& status) {
-  const sks_detector::Status state = board_.current();
+  const sks_detector::Status state = parts_.board.current();
   if (state.codebook.empty()) {
     status.summary(DiagnosticStatus::ERROR, "no codebook: set ~codebook, call ~load_codebook, or train one by ~train");
     return;
@@ -143,7 +157,7 @@ void Diagnostics::reportProcess(Status& status) {
 }
 
 double Diagnostics::inputRate() {
-  received_.emplace_back(Clock::now(), input_.counts().received);
+  received_.emplace_back(Clock::now(), parts_.input.counts().received);
   if (received_.size() > rate_window) received_.pop_front();
   const double seconds = std::chrono::duration<double>(received_.back().first - received_.front().first).count();
   return seconds > 0 ? double(received_.back().second - received_.front().second) / seconds : 0;

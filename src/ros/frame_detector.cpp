@@ -62,41 +62,89 @@ Eigen::Isometry3d FrameDetector::sensorPose(const std_msgs::Header& cloud, const
                             settings.tf_timeout);
 }
 
+std::shared_ptr<const sks::Detector> FrameDetector::detector() const {
+  auto detector = slot_.detector();
+  if (detector) return detector;
+  throw sks::Error(sks::ErrorCode::bad_usage,
+                   "there is no codebook: set ~codebook, call ~load_codebook, or train one by ~train");
+}
+
+FrameResult FrameDetector::emptyAnswer(const std_msgs::Header& cloud, const NodeSettings& settings,
+                                       const Eigen::Isometry3d& T_cloud_sensor, const sks::Codebook& codebook) const {
+  FrameResult result;
+  result.detections.header = answerHeader(cloud, settings);
+  result.detections.codebook = nameWithChecksum(codebook);
+  result.T_target_cloud = transforms_.lookup(result.detections.header.frame_id, withoutSlash(cloud.frame_id),
+                                             cloud.stamp, settings.tf_timeout);
+  result.T_target_sensor = result.T_target_cloud * T_cloud_sensor;
+  result.picture_header = cloud;
+  result.picture_header.frame_id = withoutSlash(settings.sensor_frame.empty() ? cloud.frame_id : settings.sensor_frame);
+  return result;
+}
+
 FrameResult FrameDetector::detect(const sensor_msgs::PointCloud2& message, const NodeSettings& settings,
                                   const FrameExtras& extras) const {
-  const auto detector = slot_.detector();
-  if (!detector) {
-    throw sks::Error(sks::ErrorCode::bad_usage,
-                     "there is no codebook: set ~codebook, call ~load_codebook, or train one by ~train");
-  }
+  const auto used = detector();
   sks::Cloud cloud = receivedCloud(message, settings.max_points);
   const Eigen::Isometry3d T_cloud_sensor = sensorPose(message.header, settings);
   cloud.sensor_origin = T_cloud_sensor.translation().cast<float>();
   sks::Inspection inspection;
-  const double threshold = detector->settings().detection.threshold;
   std::vector<sks::Detection> found =
-      detector->detect(cloud, extras.inspection ? &inspection : nullptr).above(threshold);
+      used->detect(cloud, extras.inspection ? &inspection : nullptr).above(used->settings().detection.threshold);
 
-  FrameResult result;
-  DetectionArray& answer = result.detections;
-  answer.header = answerHeader(message.header, settings);
-  answer.codebook = nameWithChecksum(detector->codebook());
-  // looked up last: while detecting the transform had time to arrive
-  result.T_target_cloud = transforms_.lookup(answer.header.frame_id, withoutSlash(message.header.frame_id),
-                                             message.header.stamp, settings.tf_timeout);
-  result.T_target_sensor = result.T_target_cloud * T_cloud_sensor;
+  // last: while detecting the transform had time to arrive
+  FrameResult result = emptyAnswer(message.header, settings, T_cloud_sensor, used->codebook());
   result.keypoints = pointsCloud(std::move(inspection.keypoints));
   result.votes = pointsCloud(std::move(inspection.votes));
   result.votes.colors = voteColors(inspection);
-  result.picture_header = message.header;
-  result.picture_header.frame_id =
-      withoutSlash(settings.sensor_frame.empty() ? message.header.frame_id : settings.sensor_frame);
-  if (extras.picture) result.picture = draw(cloud, T_cloud_sensor, found, detector->codebook().objects);
+  const std::vector<std::string>& objects = used->codebook().objects;
+  if (extras.picture) result.picture = draw(cloud, T_cloud_sensor, found, objects);
   for (sks::Detection& detection : found) {
     transform(result.T_target_cloud, detection);
-    answer.detections.push_back(toMessage(detection));
-    result.colors.push_back(sks::objectColor(detector->codebook().objects, detection.object));
+    result.detections.detections.push_back(toMessage(detection));
+    result.colors.push_back(sks::objectColor(objects, detection.object));
   }
+  return result;
+}
+
+sks::CloudView FrameDetector::viewOf(const std_msgs::Header& cloud, const NodeSettings& settings,
+                                     std::string& warning) const {
+  sks::CloudView view{cloud.stamp.toSec(), {}};
+  if (settings.fixed_frame.empty()) return view;
+  try {
+    view.T_fixed_cloud = transforms_.lookup(withoutSlash(settings.fixed_frame), withoutSlash(cloud.frame_id),
+                                            cloud.stamp, settings.tf_timeout);
+  } catch (const sks::Error& error) {
+    warning = std::string("objects are followed as if the camera stood still: ") + error.what();
+  }
+  return view;
+}
+
+FrameResult FrameDetector::follow(const sensor_msgs::PointCloud2& message, const NodeSettings& settings,
+                                  const FrameExtras& extras, ObjectTracking& tracking) const {
+  const auto used = detector();
+  const Eigen::Isometry3d T_cloud_sensor = sensorPose(message.header, settings);
+  std::string warning;
+  const sks::CloudView view = viewOf(message.header, settings, warning);
+  const auto cloud = std::make_shared<sks::Cloud>(receivedCloud(message, settings.max_points));
+  cloud->sensor_origin = T_cloud_sensor.translation().cast<float>();
+  const std::vector<sks::TrackedObject> tracked = tracking.follow(used, cloud, view);
+
+  FrameResult result = emptyAnswer(message.header, settings, T_cloud_sensor, used->codebook());
+  result.warning = std::move(warning);
+  const std::vector<std::string>& objects = used->codebook().objects;
+  std::vector<sks::Detection> shown;
+  for (const sks::TrackedObject& object : tracked) {
+    if (object.detection.score < used->settings().detection.threshold) continue;
+    shown.push_back(object.detection);
+    sks::Detection detection = object.detection;
+    transform(result.T_target_cloud, detection);
+    result.detections.detections.push_back(toMessage(detection));
+    result.detections.detections.back().id = object.id;
+    result.detections.detections.back().tracked = true;
+    result.colors.push_back(sks::objectColor(objects, detection.object));
+  }
+  if (extras.picture) result.picture = draw(*cloud, T_cloud_sensor, shown, objects);
   return result;
 }
 

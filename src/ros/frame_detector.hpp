@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
+#include <string>
 #include <vector>
 
 #include <sensor_msgs/PointCloud2.h>
@@ -9,10 +11,14 @@
 #include <Eigen/Geometry>
 
 #include <sks_detector/cloud.hpp>
+#include <sks_detector/codebook.hpp>
+#include <sks_detector/detector.hpp>
+#include <sks_detector/tracker.hpp>
 
 #include "io/image_file.hpp"
 #include "ros/detector_slot.hpp"
 #include "ros/node_settings.hpp"
+#include "ros/object_tracking.hpp"
 #include "ros/transforms.hpp"
 
 namespace sks_detector {
@@ -33,6 +39,7 @@ struct FrameResult {
   std::vector<sks::Rgb> colors;     ///< of each detection: that of its object in the codebook
   Eigen::Isometry3d T_target_cloud = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_target_sensor = Eigen::Isometry3d::Identity();  ///< the camera: x right, y down, z forward
+  std::string warning;  ///< what did not work as it was asked for; else empty
 };
 
 /// From a cloud's message to detections, with the detector that is in the slot at the moment. Safe to use from several
@@ -50,10 +57,21 @@ public:
   FrameResult detect(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings,
                      const FrameExtras& extras) const;
 
+  /// The same by following what earlier clouds showed (~tracking). Where the transform to ~fixed_frame is missing,
+  /// objects are followed in the frame of the cloud, and the result says so. Keypoints and votes are empty.
+  FrameResult follow(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings, const FrameExtras& extras,
+                     ObjectTracking& tracking) const;
+
   /// The header of the answer to a cloud: its stamp, in ~target_frame or the cloud's own frame.
   static std_msgs::Header answerHeader(const std_msgs::Header& cloud, const NodeSettings& settings);
 
 private:
+  /// The detector in the slot. @throws sks::Error without a codebook
+  std::shared_ptr<const sks::Detector> detector() const;
+  /// All of an answer but its detections.
+  FrameResult emptyAnswer(const std_msgs::Header& cloud, const NodeSettings& settings,
+                          const Eigen::Isometry3d& T_cloud_sensor, const sks::Codebook& codebook) const;
+  sks::CloudView viewOf(const std_msgs::Header& cloud, const NodeSettings& settings, std::string& warning) const;
   /// T_cloud_sensor. @throws sks::Error where the transform is missing
   Eigen::Isometry3d sensorPose(const std_msgs::Header& cloud, const NodeSettings& settings) const;
 

@@ -52,7 +52,8 @@ Marker newMarker(const DetectionArray& detections, std::size_t index, const char
   Marker marker;
   marker.header = detections.header;
   marker.ns = part;
-  marker.id = int(index);
+  const std::uint32_t id = detections.detections[index].id;
+  marker.id = id > 0 ? int(id) : int(index);
   marker.action = Marker::ADD;
   marker.pose = detections.detections[index].box_center;
   marker.lifetime = style.lifetime;

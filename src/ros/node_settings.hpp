@@ -24,6 +24,8 @@ struct NodeSettings {
   bool publish_tf = false;
   std::string tf_prefix;
   std::string tf_frame = "{object}";
+  bool tracking = false;
+  std::string fixed_frame;
 
   template <typename Self, typename Visitor>
   static void visit(Self& s, Visitor&& v) {
@@ -60,6 +62,13 @@ struct NodeSettings {
     v(s.tf_frame, "tf_frame",
       "frame of each detection; {object} stands for its name, {number} for 1, 2 ... of one object in a cloud; without "
       "{number} the second is called mug_2 and so on");
+    v(s.tracking, "tracking",
+      "follow objects from cloud to cloud, at the rate of the camera, and search for new ones beside it (tracking.*); "
+      "else every cloud is searched anew");
+    v(s.fixed_frame, "fixed_frame",
+      "with ~tracking: frame in which things stand still while the camera moves, e.g. odom; empty: objects are "
+      "followed "
+      "in the frame of the cloud");
   }
 };
 

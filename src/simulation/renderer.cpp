@@ -147,6 +147,15 @@ std::size_t Renderer::instanceCount() const {
   return impl_->instances.size();
 }
 
+void Renderer::moveInstance(std::size_t instance, const Eigen::Isometry3d& T_world_mesh) {
+  Impl::Instance& moved = impl_->instances[instance];
+  const Eigen::Matrix<float, 3, 4> transform = toEmbree(T_world_mesh);
+  rtcSetGeometryTransform(moved.geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
+  rtcCommitGeometry(moved.geometry);
+  moved.R_world_mesh = transform.leftCols<3>();
+  rtcCommitScene(impl_->world);
+}
+
 void Renderer::setVisible(std::size_t instance, bool visible) {
   const RTCGeometry geometry = impl_->instances[instance].geometry;
   if (visible) {
@@ -204,7 +213,7 @@ Eigen::AlignedBox2i Renderer::Impl::window(const CameraModel& camera, const Eige
 }
 
 Rendering Renderer::render(const CameraModel& camera, const Eigen::Isometry3d& T_world_camera, std::uint64_t frame,
-                           int threads) const {
+                           std::uint64_t colors, int threads) const {
   validate(camera);
   Rendering result;
   Cloud& cloud = result.cloud;
@@ -219,7 +228,7 @@ Rendering Renderer::render(const CameraModel& camera, const Eigen::Isometry3d& T
   const Eigen::Vector3f projector = (T_world_camera * Eigen::Vector3d(camera.baseline, 0, 0)).cast<float>();
   const CameraNoise& noise = camera.noise;
   const DepthErrors errors(camera, frame, threads);
-  const ColorDraw draw(camera.color, noise.seed, frame);
+  const ColorDraw draw(camera.color, noise.seed, colors);
   const bool developed = camera.color.any();
   std::vector<Eigen::Vector3f> light(developed ? pixels : 0, Eigen::Vector3f::Zero());
   std::vector<float> true_depth(errors.needsEdges() ? pixels : 0, far);

@@ -36,6 +36,8 @@ public:
   /// do @return number of the instance: Rendering::instance
   std::size_t addInstance(std::size_t mesh, const Eigen::Isometry3d& T_world_mesh, double lost = 0);
   std::size_t instanceCount() const;
+  /// Places an instance anew.
+  void moveInstance(std::size_t instance, const Eigen::Isometry3d& T_world_mesh);
   /// Hides an instance, or shows it again.
   void setVisible(std::size_t instance, bool visible);
 
@@ -43,7 +45,12 @@ public:
   /// @param frame number of the picture: with the seed it chooses the noise
   /// @throws Error(bad_usage) for an impossible camera
   Rendering render(const CameraModel& camera, const Eigen::Isometry3d& T_world_camera, std::uint64_t frame,
-                   int threads) const;
+                   int threads) const {
+    return render(camera, T_world_camera, frame, frame, threads);
+  }
+  /// @param colors the same for pictures of one exposure, white balance, light and registration of colours
+  Rendering render(const CameraModel& camera, const Eigen::Isometry3d& T_world_camera, std::uint64_t frame,
+                   std::uint64_t colors, int threads) const;
 
 private:
   struct Impl;

@@ -9,6 +9,7 @@
 #include "core/settings/threads.hpp"
 #include "simulation/builtin_objects.hpp"
 #include "simulation/scene.hpp"
+#include "simulation/sequence.hpp"
 #include "tools/bag.hpp"
 #include "tools/command.hpp"
 #include "tools/force_option.hpp"
@@ -34,6 +35,8 @@ struct SimulateOptions {
   std::string bag;  // empty: scenes.bag in the output folder
   double rate = 1;
   int repeat = 1;
+  CLI::Option* sequence_option = nullptr;
+  SequenceOptions sequence;
 
   std::unique_ptr<BagRecorder> bagRecorder(const CameraModel& camera_model) const;
 };
@@ -44,7 +47,8 @@ std::unique_ptr<BagRecorder> SimulateOptions::bagRecorder(const CameraModel& cam
     throw Error(ErrorCode::bad_usage, "--repeat " + std::to_string(repeat) + " must be in [1, 100000]");
   }
   const std::string path = bag.empty() ? (std::filesystem::path(output) / "scenes.bag").string() : bag;
-  return std::make_unique<BagRecorder>(path, camera_model, rate);
+  const bool camera_moves = sequence_option->count() > 0;
+  return std::make_unique<BagRecorder>(path, camera_model, camera_moves ? sequence.rate : rate);
 }
 
 std::vector<SceneModel> loadModels(const std::vector<TrainingEntry>& entries) {
@@ -81,6 +85,19 @@ void runTwin(const SimulateOptions& options) {
   print("twins: " + file + "\n");
 }
 
+/// One scene, picture after picture.
+std::size_t addSequence(const std::vector<SceneModel>& models, const SceneOptions& scene,
+                        const SequenceOptions& options, SimulatedSet& set, BagRecorder* bag, const Progress& progress) {
+  SimulatedSequence sequence(models, scene, options, 0);
+  for (std::size_t i = 0; i < sequence.size(); ++i) {
+    report(progress, {"simulating", "", i, sequence.size()});
+    const SequenceFrame frame = sequence.at(i);
+    set.add(frame.scene, frame.stamp);
+    if (bag) bag->add(frame.scene.view.cloud, frame.scene.T_table_camera, set.truth(frame.scene));
+  }
+  return sequence.size();
+}
+
 void run(const SimulateOptions& options) {
   if (!options.twin.empty()) return runTwin(options);
   if (!options.meshes.any()) {
@@ -104,8 +121,10 @@ void run(const SimulateOptions& options) {
   const std::unique_ptr<BagRecorder> bag = options.bagRecorder(scene.camera);
   ProgressBar bar;
   const Progress progress = bar.callback();
-  const auto total = std::size_t(options.scenes);
-  for (std::size_t i = 0; i < total; ++i) {
+  const bool is_sequence = options.sequence_option->count() > 0;
+  const std::size_t total = is_sequence ? addSequence(models, scene, options.sequence, set, bag.get(), progress)
+                                        : std::size_t(options.scenes);
+  for (std::size_t i = 0; !is_sequence && i < total; ++i) {
     report(progress, {"simulating", "", i, total});
     const SimulatedScene simulated = simulateScene(models, scene, i);
     set.add(simulated);
@@ -169,6 +188,19 @@ void addSimulate(CLI::App& app) {
   command->add_option("--repeat", options->repeat, "frames of the bag that show each scene (default: 1)")
       ->type_name("N")
       ->needs(options->bag_option);
+  options->sequence_option =
+      command
+          ->add_option(
+              "--sequence", options->sequence.seconds,
+              "instead of many scenes: one, over so many seconds, before a camera that moves; an object is pushed, "
+              "then an arm passes in front [s]; camera.txt tells where the camera was")
+          ->type_name("SECONDS");
+  command->add_option("--frame-rate", options->sequence.rate, "pictures of the sequence in a second [Hz] (default: 30)")
+      ->needs(options->sequence_option);
+  command
+      ->add_option("--swing", options->sequence.swing,
+                   "by which its camera goes around the table, to either side [degrees] (default: 20)")
+      ->needs(options->sequence_option);
   command->callback([options] { run(*options); });
 }
 

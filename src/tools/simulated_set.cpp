@@ -59,7 +59,24 @@ void SimulatedSet::add(const SimulatedScene& scene) {
   scenes_ += sceneYaml(entry);
 }
 
+void SimulatedSet::add(const SimulatedScene& scene, double stamp) {
+  add(scene);
+  const Eigen::Vector3d p = scene.T_table_camera.translation();
+  const Eigen::Quaterniond q(scene.T_table_camera.linear());
+  char line[200];
+  std::snprintf(line, sizeof(line), "%.6f %.6f %.6f %.6f %.8f %.8f %.8f %.8f\n", stamp, p.x(), p.y(), p.z(), q.x(),
+                q.y(), q.z(), q.w());
+  trajectory_ += line;
+}
+
 std::string SimulatedSet::finish(const ForceOption& force) const {
+  if (!trajectory_.empty()) {
+    force.write(
+        (fs::path(folder_) / "camera.txt").string(),
+        "# Pose of the camera's optical frame on the table for each scene, in their order (z of the table upwards):\n"
+        "# stamp [s] x y z [m] qx qy qz qw\n" +
+            trajectory_);
+  }
   std::string path = (fs::path(folder_) / "dataset.yaml").string();
   force.write(
       path,

@@ -20,13 +20,17 @@ public:
   SimulatedSet(const std::string& folder, const std::vector<TrainingEntry>& training,
                const std::vector<SceneModel>& models, std::size_t least_points = 0);
 
+  /// The same as add(), and where and when it was taken, for camera.txt.
+  void add(const SimulatedScene& scene, double stamp);
+
   /// Writes cloud, colour picture (PNG) and depth picture (16-bit PNG, mm). @throws Error(bad_file)
   void add(const SimulatedScene& scene);
 
   /// What stands in a scene, in the camera's frame: model frames, boxes, and the share that is seen as the score.
   std::vector<Detection> truth(const SimulatedScene& scene) const;
 
-  /// Writes dataset.yaml. @return its path @throws Error(bad_file), and what ForceOption::write() throws
+  /// Writes dataset.yaml and, if there are stamps, camera.txt. @return its path @throws Error(bad_file), and what
+  /// ForceOption::write() throws
   std::string finish(const ForceOption& force) const;
 
 private:
@@ -35,6 +39,7 @@ private:
   std::vector<std::string> objects_;        // names of the models
   std::vector<Eigen::AlignedBox3d> boxes_;  // of the models, in their frames [m]
   std::string training_, scenes_;           // parts of dataset.yaml
+  std::string trajectory_;                  // lines of camera.txt
   std::size_t least_points_;
   int count_ = 0;
 };

@@ -50,6 +50,38 @@ TEST_F(SimulateCommand, SameSeedSameFiles) {
   }
 }
 
+TEST_F(SimulateCommand, ASequenceTellsWhereTheCameraWas) {
+  ASSERT_EQ(runSks({"simulate", "--output", folder_.path("a"), "--mesh", "mug=builtin:mug", "--objects", "1",
+                    "--distractors", "0", "--sequence", "0.3", "--frame-rate", "10"})
+                .status,
+            0);
+  const DataSet data_set = loadDataSet(folder_.path("a/dataset.yaml"));
+  ASSERT_EQ(data_set.scenes.size(), 3u);
+  std::istringstream lines(readTextFile(folder_.path("a/camera.txt")));
+  std::string line;
+  std::size_t scene = 0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  while (std::getline(lines, line)) {
+    if (line[0] == '#') continue;
+    std::istringstream numbers(line);
+    double stamp = 0;
+    Eigen::Isometry3d T_table_camera = Eigen::Isometry3d::Identity();
+    Eigen::Quaterniond q;
+    Eigen::Vector3d& p = T_table_camera.translation();
+    numbers >> stamp >> p.x() >> p.y() >> p.z() >> q.x() >> q.y() >> q.z() >> q.w();
+    T_table_camera.linear() = q.toRotationMatrix();
+    EXPECT_NEAR(stamp, 0.1 * double(scene), 1e-6);
+    // the mug stands still on the table, before the push
+    const Eigen::Vector3d mug =
+        T_table_camera * data_set.scenes.at(scene).objects.at(0).T_scene_reference.value().translation();
+    if (scene == 0) first = mug;
+    if (scene == 0) EXPECT_NEAR(q.norm(), 1, 1e-6);
+    EXPECT_LT((mug - first).norm(), scene < 2 ? 1e-4 : 0.11);
+    ++scene;
+  }
+  EXPECT_EQ(scene, 3u);
+}
+
 TEST_F(SimulateCommand, MixesNoTwoDataSets) {
   ASSERT_EQ(simulate("a").status, 0);
   const std::string before = readTextFile(folder_.path("a/dataset.yaml"));

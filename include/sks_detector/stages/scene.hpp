@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include <sks_detector/stages/descriptors.hpp>
 #include <sks_detector/stages/keypoints.hpp>
 #include <sks_detector/stages/large_planes.hpp>
@@ -12,10 +14,21 @@
 
 namespace sks {
 
+/// Where an object is known to be.
+struct OccupiedBox {
+  Eigen::Isometry3d T_scene_box = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();  ///< full extents [m]
+
+  bool contains(const Eigen::Vector3d& position) const {
+    return ((T_scene_box.inverse() * position).cwiseAbs().array() <= 0.5 * size.array()).all();
+  }
+};
+
 /// A scene on its way from the cloud to its votes, in the frame of the cloud [m].
 struct SceneDescription {
   Surface surface;
   std::vector<LargePlane> planes;        ///< found where the settings need them
+  std::vector<OccupiedBox> occupied;     ///< nothing is looked for there
   Keypoints keypoints;                   ///< those that the selection kept
   Descriptors descriptors;               ///< of those keypoints that could be described
   std::vector<Match> matches;            ///< in the order of the descriptors

@@ -62,6 +62,21 @@ bool thinsByRange(const Settings& settings) {
   return verifiesPoses(settings) && settings.surface.resolution == 0;
 }
 
+/// The keypoints in none of the boxes.
+Keypoints keypointsOutside(const std::vector<OccupiedBox>& occupied, Keypoints keypoints) {
+  if (occupied.empty()) return keypoints;
+  Keypoints kept;
+  for (std::size_t i = 0; i < keypoints.size(); ++i) {
+    const Eigen::Vector3d position = keypoints.positions[i].cast<double>();
+    if (std::any_of(occupied.begin(), occupied.end(), [&](const auto& box) { return box.contains(position); }))
+      continue;
+    kept.positions.push_back(keypoints.positions[i]);
+    if (!keypoints.normals.empty()) kept.normals.push_back(keypoints.normals[i]);
+    if (!keypoints.curvature.empty()) kept.curvature.push_back(keypoints.curvature[i]);
+  }
+  return kept;
+}
+
 /// Calls a function that uses one thread while the calling thread does something else, or else when the result is asked
 /// for.
 template <typename Function>
@@ -91,7 +106,8 @@ Detector::Detector(std::shared_ptr<const Codebook> codebook, const Settings& set
   auto matcher = builtBeside([this] { return std::make_shared<const ObjectMatcher>(*codebook_); }, settings_);
   findBackground();
   if (!stages_.verifier) {
-    surface_verifier_ = std::make_shared<SurfaceVerifier>(codebook_, threadCount(settings_));
+    models_ = std::make_shared<VerifiedModels>(codebook_, threadCount(settings_));
+    surface_verifier_ = std::make_shared<SurfaceVerifier>(models_);
     hough_verifier_ = std::make_shared<HoughVerifier>(*codebook_);
   }
   matcher_ = matcher.get();
@@ -113,7 +129,8 @@ const VerifierStage& Detector::verifier() const {
   return verifiesPoses(settings_) ? *surface_verifier_ : *hough_verifier_;
 }
 
-DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) const {
+DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection,
+                                 const std::vector<OccupiedBox>& occupied) const {
   using Times = StageTimes;
   const int threads = startableThreads(settings_);
   const float largest_plane = skipsPlanes(settings_) ? codebook_->largestExtent() : any_plane;
@@ -128,7 +145,8 @@ DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection) con
   // Section 3.1, a grid of keypoints; section 4, those of highest Gaussian curvature K = kappa_1 kappa_2.
   auto [keypoints, detected] = clock.book(
       &Times::keypoints, selectedKeypoints(scene.surface, *stages_.keypoints, settings_, scene.planes, largest_plane));
-  scene.keypoints = std::move(keypoints);
+  scene.keypoints = keypointsOutside(occupied, std::move(keypoints));
+  scene.occupied = occupied;
   // Beyond the paper: fewer of them where the sensor measures little.
   if (thinsByRange(settings_)) {
     scene.keypoints =

@@ -102,6 +102,7 @@ PoseEvidence examinePose(const TrainingView& view, const SurfaceWeights& surface
     const Correspondence correspondence =
         correspondenceOf(placed, seen, color, scene, distance, agreement, search, runs);
     if (correspondence.point == no_point) {
+      if (seen.sight == Sight::occluded) evidence.occluded += area;
       if (seen.sight == Sight::unknown) evidence.weighted_visible += unmeasured * weighted;
       if (seen.sight == Sight::at || seen.sight == Sight::in_front) evidence.weighted_visible += weighted;
       return;

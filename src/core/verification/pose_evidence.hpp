@@ -51,6 +51,7 @@ struct SceneView {
 struct PoseEvidence {
   double facing = 0;                      ///< area that faces the sensor
   double supported = 0;                   ///< of that, confirmed by scene points with matching normals and colours
+  double occluded = 0;                    ///< of the facing area, behind what the sensor saw
   double weighted_visible = 0;            ///< weighted area that should be seen; half where nothing was measured
   double weighted_supported = 0;          ///< of that, confirmed
   std::vector<std::uint32_t> confirming;  ///< the scene points that confirm it

@@ -125,11 +125,15 @@ Examined PoseExaminer::examineRoughly(Hypothesis hypothesis) const {
   return {std::move(hypothesis), std::move(pose.confirming), std::move(lines)};
 }
 
-Examined PoseExaminer::examine(Hypothesis hypothesis) const {
+Examined PoseExaminer::examine(Hypothesis hypothesis, PoseEvidence* areas) const {
   PoseEvidence pose;
   hypothesis.evidence = evidenceAt(hypothesis, pose, last_points, CorrespondenceSearch::nearby);
   SightLines lines = sightLines(hypothesis);
   hypothesis.evidence *= lines.agreement() * lines.pattern;
+  if (areas != nullptr) {
+    *areas = std::move(pose);
+    return {std::move(hypothesis), areas->confirming, std::move(lines)};
+  }
   return {std::move(hypothesis), std::move(pose.confirming), std::move(lines)};
 }
 

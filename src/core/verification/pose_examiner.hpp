@@ -69,7 +69,8 @@ public:
   /// The evidence of a pose that is about right, to choose between poses.
   Examined examineRoughly(Hypothesis hypothesis) const;
   /// The evidence of an exact pose, in which the patterns of colours must agree too.
-  Examined examine(Hypothesis hypothesis) const;
+  /// @param areas where given, takes what the scene says to the surface
+  Examined examine(Hypothesis hypothesis, PoseEvidence* areas = nullptr) const;
   /// After some last rounds of ICP with nearest points.
   Hypothesis refined(Hypothesis hypothesis) const;
   /// Of the refined pose and those in which the object's box lies as it does in this one, that with most evidence along

@@ -46,6 +46,18 @@ float largestDiagonal(const Codebook& codebook) {
   return largest;
 }
 
+/// The poses whose box has its centre in none of the occupied ones.
+std::vector<PoseCandidate> candidatesOutside(const std::vector<OccupiedBox>& occupied,
+                                             std::vector<PoseCandidate> candidates, const Codebook& codebook) {
+  if (occupied.empty()) return candidates;
+  const auto inside = [&](const PoseCandidate& candidate) {
+    const Eigen::Vector3d center = candidate.T_scene_model * codebook.views[candidate.view].center().cast<double>();
+    return std::any_of(occupied.begin(), occupied.end(), [&](const auto& box) { return box.contains(center); });
+  };
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), inside), candidates.end());
+  return candidates;
+}
+
 bool better(const Examined& a, const Examined& b) {
   const auto key = [](const Hypothesis& h) {
     const Eigen::Vector3d p = h.T_scene_box.translation();
@@ -99,9 +111,6 @@ void resolveConflicts(std::vector<Examined>& examined, const Surface& scene, flo
 
 }  // namespace
 
-SurfaceVerifier::SurfaceVerifier(std::shared_ptr<const Codebook> codebook, int threads)
-    : models_(std::move(codebook), threads) {}
-
 std::vector<Hypothesis> SurfaceVerifier::propose(const SceneDescription& /*scene*/, const Codebook& /*codebook*/,
                                                  const Settings& /*settings*/) const {
   return {};
@@ -110,28 +119,31 @@ std::vector<Hypothesis> SurfaceVerifier::propose(const SceneDescription& /*scene
 std::vector<Hypothesis> SurfaceVerifier::verify(std::vector<Hypothesis> /*proposed*/, const SceneDescription& scene,
                                                 const Codebook& /*codebook*/, const Settings& settings) const {
   const int threads = threadCount(settings);
-  return findPoses(scene.votes, SceneView(scene.surface, scene.planes, settings, threads), settings, threads);
+  return findPoses(scene, SceneView(scene.surface, scene.planes, settings, threads), settings, threads);
 }
 
 double SurfaceVerifier::score(const Hypothesis& hypothesis, const Settings& settings) const {
   return scoreOfEvidence(hypothesis, settings);
 }
 
-std::vector<Hypothesis> SurfaceVerifier::findPoses(const std::vector<std::vector<Vote>>& spaces, SceneView scene,
+std::vector<Hypothesis> SurfaceVerifier::findPoses(const SceneDescription& description, SceneView scene,
                                                    const Settings& settings, int threads) const {
-  const Codebook& codebook = *models_.codebook;
-  std::vector<PoseCandidate> candidates = poseCandidates(codebook, models_.rough, spaces, scene, settings, threads);
-  if (!models_.resting.empty()) {
+  const VerifiedModels& models = *models_;
+  const Codebook& codebook = *models.codebook;
+  const std::vector<std::vector<Vote>>& spaces = description.votes;
+  std::vector<PoseCandidate> candidates = poseCandidates(codebook, models.rough, spaces, scene, settings, threads);
+  if (!models.resting.empty()) {
     StandingThings standing =
-        findStandingThings(scene.surface, scene.planes, largestDiagonal(codebook), models_.stickWidth(), threads);
+        findStandingThings(scene.surface, scene.planes, largestDiagonal(codebook), models.stickWidth(), threads);
     scene.rises = std::move(standing.rises);
-    for (const auto& more : {standingCandidates(models_, standing.things, scene, threads),
-                             pileCandidates(models_, standing.parts, scene, threads)}) {
+    for (const auto& more : {standingCandidates(models, standing.things, scene, threads),
+                             pileCandidates(models, standing.parts, scene, threads)}) {
       candidates.insert(candidates.end(), more.begin(), more.end());
     }
   }
-  const PoseExaminer examiner(models_, scene, spaces, settings);
-  candidates = mostPromisingCandidates(std::move(candidates), examiner, models_, scene, settings, threads);
+  candidates = candidatesOutside(description.occupied, std::move(candidates), codebook);
+  const PoseExaminer examiner(models, scene, spaces, settings);
+  candidates = mostPromisingCandidates(std::move(candidates), examiner, models, scene, settings, threads);
   const double half = settings.verification.half_evidence;
 
   std::vector<Examined> examined(candidates.size());

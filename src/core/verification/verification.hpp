@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include <sks_detector/codebook.hpp>
@@ -20,7 +21,8 @@ namespace sks {
 /// Deterministic; immutable once built; thread-safe.
 class SurfaceVerifier : public VerifierStage {
 public:
-  SurfaceVerifier(std::shared_ptr<const Codebook> codebook, int threads);
+  /// @param models not null
+  explicit SurfaceVerifier(std::shared_ptr<const VerifiedModels> models) : models_(std::move(models)) {}
 
   /// None: every vote is a proposal.
   std::vector<Hypothesis> propose(const SceneDescription& scene, const Codebook& codebook,
@@ -35,10 +37,10 @@ public:
   double score(const Hypothesis& hypothesis, const Settings& settings) const override;
 
 private:
-  std::vector<Hypothesis> findPoses(const std::vector<std::vector<Vote>>& spaces, SceneView scene,
-                                    const Settings& settings, int threads) const;
+  std::vector<Hypothesis> findPoses(const SceneDescription& description, SceneView scene, const Settings& settings,
+                                    int threads) const;
 
-  VerifiedModels models_;
+  std::shared_ptr<const VerifiedModels> models_;
 };
 
 }  // namespace sks

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+#include <Eigen/Geometry>
+
+#include <sks_detector/settings.hpp>
+#include <sks_detector/stages/hypothesis.hpp>
+
+#include "core/tracking/object_follower.hpp"
+#include "core/tracking/pose_filter.hpp"
+
+namespace sks {
+
+/// An object that is followed: who it is, where it is in the reference frame, and how certain that is.
+class Track {
+public:
+  /// @param center of the object's box [m], model frame
+  Track(std::uint32_t id, Hypothesis found, const Eigen::Isometry3d& T_reference_model, const Eigen::Vector3d& center,
+        double stamp);
+
+  std::uint32_t id() const { return id_; }
+  /// As it was found last, in the frame of that cloud; its evidence pools those of the last clouds.
+  const Hypothesis& hypothesis() const { return hypothesis_; }
+  const PoseFilter& filter() const { return filter_; }
+  const Eigen::Vector3d& center() const { return center_; }
+  double score(const Settings& settings) const;
+
+  bool seen() const { return seen_; }
+  bool hidden() const { return hidden_; }        ///< not seen, but there is something in front of it
+  bool confirmed() const { return confirmed_; }  ///< by another cloud than the one that it was found in
+  double begun() const { return begun_; }        ///< [s]
+  double seenAt() const { return seen_at_; }     ///< [s]
+  /// By a full look, or the detection that it began with [s].
+  double examinedAt() const { return examined_at_; }
+
+  /// What a new cloud shows. @param T_reference_cloud of that cloud
+  void update(const FollowedObject& followed, Look look, const Eigen::Isometry3d& T_reference_cloud, double stamp,
+              double range);
+  /// It was found somewhere else, and is still the same object.
+  void foundAgain(const Hypothesis& found, const Eigen::Isometry3d& T_reference_model, double stamp);
+  /// Begins with another reference frame, in which nothing is known of its motion.
+  void restart(const Eigen::Isometry3d& T_reference_model, double stamp);
+  /// Pose in the reference frame at the time of an earlier cloud.
+  Eigen::Isometry3d poseAt(double stamp) const;
+
+private:
+  void pool(double evidence, double seconds);
+  void remember(double stamp);
+
+  struct Past {
+    double stamp;
+    Eigen::Isometry3d T_reference_model;
+  };
+
+  std::uint32_t id_;
+  Hypothesis hypothesis_;
+  Eigen::Vector3d center_;
+  PoseFilter filter_;
+  std::deque<Past> past_;
+  bool seen_ = true, hidden_ = false, confirmed_ = false;
+  double begun_, seen_at_;
+  double examined_at_;
+};
+
+}  // namespace sks
