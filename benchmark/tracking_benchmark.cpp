@@ -28,7 +28,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double first_search = 1.0;  // [s] after which all objects should be followed
 constexpr double visible = 0.5;       // share of an object from which on it should be told
-constexpr double same_place = 0.05;   // [m]
+constexpr double degrees = 180 / double(EIGEN_PI);
+constexpr double same_place = 0.05;  // [m]
 
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
@@ -73,7 +74,7 @@ public:
       }
       const Eigen::Isometry3d error = truth.T_camera_model.inverse() * found->detection.T_scene_model;
       shifts_.push_back(1000 * (error * center - center).norm());
-      turns_.push_back(Eigen::AngleAxisd(error.linear()).angle() * 180 / EIGEN_PI);
+      turns_.push_back(Eigen::AngleAxisd(error.linear()).angle() * degrees);
       if (ids_.count(i) > 0 && ids_[i] != found->id) ++switches_;
       ids_[i] = found->id;
       if (i == pushed || frame.stamp < first_search) continue;
@@ -84,7 +85,7 @@ public:
       const Eigen::Vector3d turned = turn.angle() * turn.axis();
       for (int axis = 0; axis < 3; ++axis) {
         places_[i][axis].push_back(1000 * place[axis]);
-        rotations_[i][axis].push_back(turned[axis] * 180 / EIGEN_PI);
+        rotations_[i][axis].push_back(turned[axis] * degrees);
       }
     }
   }
