@@ -10,12 +10,12 @@
 namespace sks {
 namespace {
 
-constexpr double pooling = 1.5;          // [s] after which a full look has lost two thirds of its say in the evidence
-constexpr double kept_past = 5;          // [s] within which the detection of an earlier cloud has to arrive
-constexpr double mostly_hidden = 0.3;    // share of the surface: then little evidence speaks neither way
-constexpr double agrees = 1.0 / 3;       // least share of what should be seen that a cloud has to confirm
-constexpr double least_in_sight = 0.2;   // share of the surface that faces the sensor: with less no pose is measured
-constexpr double least_evidence = 1e-6;  // whose logarithm is taken
+constexpr double pooling = 1.5;         // [s] after which a full look has lost two thirds of its say in the evidence
+constexpr double kept_past = 5;         // [s] within which the detection of an earlier cloud has to arrive
+constexpr double mostly_hidden = 0.3;   // share of the surface: then little evidence speaks neither way
+constexpr double agrees = 1.0 / 3;      // least share of what should be seen that a cloud has to confirm
+constexpr double least_in_sight = 0.2;  // share of the surface that faces the sensor: with less no pose is measured
+constexpr double smallest_evidence = 1e-6;  // whose logarithm is taken
 
 }  // namespace
 
@@ -77,8 +77,8 @@ Eigen::Isometry3d Track::poseAt(double stamp) const {
 /// Evidence multiplies, so its logarithms are averaged.
 void Track::pool(double evidence, double seconds) {
   const double share = 1 - std::exp(-std::max(seconds, 0.0) / pooling);
-  const double logarithm = (1 - share) * std::log(std::max(hypothesis_.evidence, least_evidence)) +
-                           share * std::log(std::max(evidence, least_evidence));
+  const double logarithm = (1 - share) * std::log(std::max(hypothesis_.evidence, smallest_evidence)) +
+                           share * std::log(std::max(evidence, smallest_evidence));
   hypothesis_.evidence = std::exp(logarithm);
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double examination = 0.5;  // [s] between full looks at an object
 constexpr double sure_score = 0.9;   // what is seen with this score need not be searched for
-constexpr double better = 1.25;      // times the evidence with which a detection takes the place of a track
+constexpr double outdone_by = 1.25;  // times the evidence with which a detection takes the place of a track
 constexpr double fastest = 1.0;      // [m/s] that a lost object is moved by a hand
 constexpr double color_doubt = 2;    // as many good objects it takes to tell light from a wrong object
 
@@ -201,14 +201,14 @@ void Tracker::State::takeOne(const Detection& detection, const CloudView& view) 
   const Hypothesis found = hypothesisOf(detection);
   const Eigen::Isometry3d T_reference_model = referenceOf(view) * found.T_scene_model;
   if (Track* same = sameObject(found, T_reference_model, view.stamp)) {
-    const bool better_pose = found.evidence > better * same->hypothesis().evidence;
+    const bool better_pose = found.evidence > outdone_by * same->hypothesis().evidence;
     if (same->seen() && !better_pose) return;
     if (!same->seen()) ++counts.found_again;
     same->foundAgain(found, T_reference_model, view.stamp);
     return;
   }
   if (Track* other = atPlaceOf(found, T_reference_model, view.stamp)) {
-    if (found.evidence <= better * other->hypothesis().evidence) return;
+    if (found.evidence <= outdone_by * other->hypothesis().evidence) return;
     ++counts.identity_changes;
     tracks.erase(tracks.begin() + (other - tracks.data()));
   }

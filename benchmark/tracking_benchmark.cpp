@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Five objects followed through a simulated sequence at 30 Hz, with the searches that the tracker asks for in a second
+// thread. Counters: time of a cloud [ms], errors against the truth [mm, degrees], jitter of what stands still [mm,
+// degrees: largest standard deviation], changes of identity, and clouds in which a visible object was not told.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <future>
+#include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include <sks_detector/simulation/camera_presets.hpp>
+#include <sks_detector/simulation/training_views.hpp>
+#include <sks_detector/tracker.hpp>
+
+#include "simulation/builtin_objects.hpp"
+#include "simulation/sequence.hpp"
+
+namespace sks {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double first_search = 1.0;  // [s] after which all objects should be followed
+constexpr double visible = 0.5;       // share of an object from which on it should be told
+constexpr double degrees = 180 / double(EIGEN_PI);
+constexpr double same_place = 0.05;  // [m]
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end());
+  return values[std::size_t(share * double(values.size() - 1))];
+}
+
+double deviation(const std::vector<double>& values) {
+  double sum = 0, squares = 0;
+  for (const double v : values) sum += v, squares += v * v;
+  const double mean = sum / double(values.size());
+  return std::sqrt(std::max(0.0, squares / double(values.size()) - mean * mean));
+}
+
+/// All but the bowl, whose turn cannot be told.
+std::vector<SceneModel> householdModels() {
+  std::vector<SceneModel> models;
+  for (const std::string& name : builtinNames()) {
+    if (name == "bowl") continue;
+    models.push_back({name, name, std::make_shared<const Mesh>(builtinObject(name))});
+  }
+  return models;
+}
+
+/// What was told, compared with the truth.
+class TrackingRecord {
+public:
+  explicit TrackingRecord(const std::vector<SceneModel>& models) : models_(models) {}
+
+  void add(const SequenceFrame& frame, const std::vector<TrackedObject>& told, std::size_t pushed) {
+    for (std::size_t i = 0; i < frame.scene.objects.size(); ++i) {
+      const ScenePlacement& truth = frame.scene.objects[i];
+      const SceneModel& model = models_[truth.model];
+      const Eigen::Vector3d center = model.mesh->box().center().cast<double>();
+      const auto found = std::find_if(told.begin(), told.end(), [&](const TrackedObject& object) {
+        const Eigen::Vector3d apart = object.detection.T_scene_model * center - truth.T_camera_model * center;
+        return object.detection.object == model.object && apart.norm() < same_place;
+      });
+      if (found == told.end()) {
+        if (frame.stamp > first_search && truth.visibility >= visible) ++missed_;
+        continue;
+      }
+      const Eigen::Isometry3d error = truth.T_camera_model.inverse() * found->detection.T_scene_model;
+      shifts_.push_back(1000 * (error * center - center).norm());
+      turns_.push_back(Eigen::AngleAxisd(error.linear()).angle() * degrees);
+      if (ids_.count(i) > 0 && ids_[i] != found->id) ++switches_;
+      ids_[i] = found->id;
+      if (i == pushed || frame.stamp < first_search) continue;
+      const Eigen::Isometry3d T_table_model = frame.scene.T_table_camera * found->detection.T_scene_model;
+      const Eigen::Vector3d place = T_table_model * center;
+      const Eigen::Isometry3d T_table_truth = frame.scene.T_table_camera * truth.T_camera_model;
+      const Eigen::AngleAxisd turn(T_table_truth.linear().transpose() * T_table_model.linear());
+      const Eigen::Vector3d turned = turn.angle() * turn.axis();
+      for (int axis = 0; axis < 3; ++axis) {
+        places_[i][axis].push_back(1000 * place[axis]);
+        rotations_[i][axis].push_back(turned[axis] * degrees);
+      }
+    }
+  }
+
+  void report(benchmark::State& state) const {
+    state.counters["error_mm"] = quantile(shifts_, 0.5);
+    state.counters["error_deg"] = quantile(turns_, 0.5);
+    state.counters["jitter_mm"] = jitter(places_);
+    state.counters["jitter_deg"] = jitter(rotations_);
+    state.counters["switches"] = switches_;
+    state.counters["missed"] = missed_;
+  }
+
+private:
+  using Axes = std::map<std::size_t, std::map<int, std::vector<double>>>;
+
+  static double jitter(const Axes& of_objects) {
+    double largest = 0;
+    for (const auto& [object, axes] : of_objects) {
+      for (const auto& [axis, values] : axes) largest = std::max(largest, deviation(values));
+    }
+    return largest;
+  }
+
+  const std::vector<SceneModel>& models_;
+  std::vector<double> shifts_, turns_;
+  Axes places_, rotations_;  // of each object
+  std::map<std::size_t, std::uint32_t> ids_;
+  int switches_ = 0, missed_ = 0;
+};
+
+void followSequence(benchmark::State& state) {
+  const std::vector<SceneModel> models = householdModels();
+  std::vector<TrainingSample> samples;
+  for (const SceneModel& model : models) {
+    for (const TrainingSample& sample : meshSamples(model.object, model.source, model.mesh, {}))
+      samples.push_back(sample);
+  }
+  Settings settings;
+  settings.threads = int(state.range(0));
+  const auto codebook = std::make_shared<const Codebook>(train(samples, {}, "household"));
+  const Detector detector(codebook, settings);
+  SceneOptions scene;
+  scene.distractors = 2;
+  scene.region = 0.25;
+  scene.max_distance = 0.95;
+  scene.seed = std::uint64_t(state.range(1));
+  scene.camera = cameraPreset("xtion");
+  SequenceOptions options;
+  options.seconds = 4;
+  SimulatedSequence sequence(models, scene, options, 0);
+  std::vector<SequenceFrame> frames;
+  for (std::size_t i = 0; i < sequence.size(); ++i) frames.push_back(sequence.at(i));
+
+  for (auto _ : state) {
+    Tracker tracker(detector);
+    TrackingRecord record(models);
+    std::vector<double> times;
+    std::future<DetectionResult> search;
+    CloudView searched;
+    double searching = 0;
+    const Clock::time_point begin = Clock::now();
+    for (const SequenceFrame& frame : frames) {
+      std::this_thread::sleep_until(
+          begin + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(frame.stamp)));
+      const Clock::time_point start = Clock::now();
+      const CloudView view{frame.stamp, frame.scene.T_table_camera};
+      if (search.valid() && search.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        tracker.take(search.get(), searched);
+      }
+      std::vector<TrackedObject> told = tracker.follow(frame.scene.view.cloud, view);
+      times.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+      if (!search.valid() && tracker.wantsDetection(frame.stamp)) {
+        searched = view;
+        search = std::async(std::launch::async, [&detector, &frame, occupied = tracker.occupied()] {
+          return detector.detect(frame.scene.view.cloud, nullptr, occupied);
+        });
+      }
+      searching += search.valid() ? 1 : 0;
+      told.erase(std::remove_if(told.begin(), told.end(),
+                                [&](const auto& o) { return o.detection.score < settings.detection.threshold; }),
+                 told.end());
+      record.add(frame, told, sequence.pushed());
+    }
+    state.counters["p50_ms"] = quantile(times, 0.5);
+    state.counters["p95_ms"] = quantile(times, 0.95);
+    state.counters["searching"] = searching / double(frames.size());
+    record.report(state);
+  }
+}
+
+// Threads of the tracker, and of the search; seed of the scene.
+BENCHMARK(followSequence)
+    ->Args({1, 1})
+    ->Args({1, 2})
+    ->Args({1, 3})
+    ->Args({2, 1})
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+}  // namespace
+}  // namespace sks
