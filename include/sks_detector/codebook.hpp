@@ -114,7 +114,7 @@ struct Codebook {
   std::vector<std::string> objects;                       ///< names, in order of their first training cloud
   std::vector<TrainingView> views;
   std::vector<Codeword> words;
-  QuantizedDescriptors descriptors;     ///< words.size() rows
+  QuantizedDescriptors descriptors;  ///< words.size() rows
   /// Of what stands about in rooms, which competes with the codewords; no rows: a detector makes them where it needs
   /// them.
   QuantizedDescriptors background;
