@@ -14,10 +14,10 @@
 namespace sks {
 namespace {
 
-constexpr double margin = 0.03;       // [m] around the box: what the outline and the plane below need
-constexpr double quick_points = 3;    // spacings of the points of a quick look within the radius of a normal
-constexpr float flat = 0.03f;         // [m] what is thinner may lie within the tolerance of the plane below it
-constexpr double fewest_points = 50;  // of a crop: else nothing can be said
+constexpr double margin = 0.03;        // [m] around the box: what the outline and the plane below need
+constexpr double quick_points = 3;     // spacings of the points of a quick look within the radius of a normal
+constexpr float flat_object = 0.03f;   // [m] what is thinner may lie within the tolerance of the plane below it
+constexpr double fewest_in_crop = 50;  // of a crop: else nothing can be said
 
 Settings oneThread(Settings settings) {
   settings.threads = 1;
@@ -45,7 +45,7 @@ FollowedObject ObjectFollower::follow(const Cloud& cloud, const Hypothesis& expe
   const Eigen::Vector3d half = 0.5 * view.extent().cast<double>() + Eigen::Vector3d::Constant(margin);
   const double spacing = look == Look::quick ? settings_.surface.normal_radius / quick_points : 0;
   const ObjectCrop crop = cropAround(cloud, T_cloud_box, half, spacing);
-  if (double(crop.cloud.size()) < fewest_points) return followed;
+  if (double(crop.cloud.size()) < fewest_in_crop) return followed;
   Surface surface;
   try {
     surface = prepareSurface(usableCloud(crop.cloud, Orientation::sensor, codebook, settings_), settings_.surface,
@@ -57,7 +57,7 @@ FollowedObject ObjectFollower::follow(const Cloud& cloud, const Hypothesis& expe
   SceneView scene(surface, settings_, 1);
   scene.color_shift = color_shift;
   const float largest = view.extent().norm();
-  if (view.extent().minCoeff() < flat) scene.rises = findStandingThings(surface, scene.planes, largest).rises;
+  if (view.extent().minCoeff() < flat_object) scene.rises = findStandingThings(surface, scene.planes, largest).rises;
 
   const PoseExaminer examiner(*models_, scene, no_votes_, settings_);
   Examined best;
