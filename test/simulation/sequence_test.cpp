@@ -12,7 +12,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::vector<SceneModel> builtinModels() {
+std::vector<SceneModel> householdModels() {
   std::vector<SceneModel> models;
   for (const std::string& name : builtinNames()) {
     models.push_back({name, "builtin:" + name, std::make_shared<const Mesh>(builtinObject(name))});
@@ -35,7 +35,7 @@ Eigen::Isometry3d onTable(const SequenceFrame& frame, std::size_t object) {
 }
 
 TEST(Sequence, OnlyThePushedObjectMoves) {
-  SimulatedSequence sequence(builtinModels(), smallPictures(), {2, 10, 20, true, false}, 0);
+  SimulatedSequence sequence(householdModels(), smallPictures(), {2, 10, 20, true, false}, 0);
   ASSERT_EQ(sequence.size(), 20u);
   const SequenceFrame first = sequence.at(0), last = sequence.at(19);
   EXPECT_EQ(first.stamp, 0);
@@ -49,7 +49,7 @@ TEST(Sequence, OnlyThePushedObjectMoves) {
 }
 
 TEST(Sequence, TheHandHidesObjectsAndGoesAway) {
-  SimulatedSequence sequence(builtinModels(), smallPictures(), {2, 10, 0, false, true}, 0);
+  SimulatedSequence sequence(householdModels(), smallPictures(), {2, 10, 0, false, true}, 0);
   EXPECT_EQ(sequence.pushed(), sequence.at(0).scene.objects.size());
   const auto visible = [&](std::size_t frame) {
     double sum = 0;
@@ -62,8 +62,8 @@ TEST(Sequence, TheHandHidesObjectsAndGoesAway) {
 }
 
 TEST(Sequence, SameNumberSamePicturesInAnyOrder) {
-  SimulatedSequence a(builtinModels(), smallPictures(), {1, 10, 20, true, true}, 1);
-  SimulatedSequence b(builtinModels(), smallPictures(), {1, 10, 20, true, true}, 1);
+  SimulatedSequence a(householdModels(), smallPictures(), {1, 10, 20, true, true}, 1);
+  SimulatedSequence b(householdModels(), smallPictures(), {1, 10, 20, true, true}, 1);
   a.at(2);
   const SequenceFrame late = a.at(7);
   b.at(9);
@@ -73,7 +73,7 @@ TEST(Sequence, SameNumberSamePicturesInAnyOrder) {
 TEST(Sequence, RefusesImpossibleOptions) {
   const auto refusal = [](const SequenceOptions& options) {
     return test::errorOf(ErrorCode::bad_usage,
-                         [&] { SimulatedSequence(builtinModels(), smallPictures(), options, 0); });
+                         [&] { SimulatedSequence(householdModels(), smallPictures(), options, 0); });
   };
   EXPECT_THAT(refusal({0, 30, 20, true, true}), HasSubstr("seconds = 0"));
   EXPECT_THAT(refusal({1, -1, 20, true, true}), HasSubstr("rate"));
