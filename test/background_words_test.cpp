@@ -110,7 +110,7 @@ TEST(BackgroundWords, TakeVotesOfWhatResemblesThemMore) {
   codebook.views.resize(1);
   codebook.words.resize(rows.size());
   codebook.descriptors = quantized(rows, size);
-  const NearestWord competing(matrix(background, size), true);
+  const NearestWord competing(matrix(background, size), SearchEffort::exact());
   const auto matches = ObjectMatcher(codebook).match(matrix(queries, size), 1.3, 2, &competing);
 
   std::vector<Match> expected;
@@ -139,7 +139,7 @@ TEST(BackgroundWords, TakeVotesOfWhatResemblesThemMore) {
 TEST(NearestWord, OfALimitedDistanceIsThatOfAllOrNone) {
   const std::size_t size = 64;
   const Rows rows = histograms(700, size, 7), queries = histograms(50, size, 8);
-  const NearestWord words(matrix(rows, size), true);
+  const NearestWord words(matrix(rows, size), SearchEffort::exact());
   const auto all = words.find(matrix(queries, size), 1, 2);
   std::vector<float> limits;
   for (std::size_t q = 0; q < queries.size(); ++q) limits.push_back(all[q].distance * (q % 2 == 0 ? 1.01f : 0.99f));

@@ -96,11 +96,11 @@ TEST(PoseEvidence, APointWeighsTheSameAloneAndAmongAll) {
   const TrainingView view = trained();
   const SurfaceWeights all(view);
   const RoughSurface some(view);
-  const std::size_t stride = (view.surface_points.size() + some.shape.size() - 1) / some.shape.size();
-  ASSERT_GT(stride, 1u);
-  for (std::size_t i = 0; i < some.shape.size(); ++i) {
-    EXPECT_EQ(some.shape[i], all.shape[i * stride]);
-    EXPECT_EQ(some.shape_and_color[i], all.shape_and_color[i * stride]);
+  ASSERT_GT(some.stride, 1u);
+  ASSERT_EQ(some.sample.size, (view.surface_points.size() + some.stride - 1) / some.stride);
+  for (std::size_t i = 0; i < some.sample.size; ++i) {
+    EXPECT_EQ(some.shape[i], all.shape[i * some.stride]);
+    EXPECT_EQ(some.shape_and_color[i], all.shape_and_color[i * some.stride]);
   }
 }
 

@@ -227,7 +227,7 @@ void NearestWord::finish(Search& search, Match* matches, Workspace& work) const 
   }
   for (std::size_t group = 0; group < groups_; ++group) {
     const auto& [distance, word] = work.nearest[group];
-    matches[group] = {0, word, float(distance)};
+    matches[group] = {0, word, std::isinf(distance) || exact() ? float(distance) : float(distanceOf(word))};
   }
 }
 

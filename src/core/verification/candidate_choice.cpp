@@ -2,6 +2,7 @@
 #include "core/verification/candidate_choice.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 #include "core/verification/projective_refinement.hpp"
 #include "core/verification/rough_support.hpp"
@@ -12,8 +13,8 @@ namespace {
 constexpr double first_rounds = 0.42;  // of all
 constexpr double kept_share = 0.8;     // on recorded scenes the first right one was among the 15 best of 120
 constexpr int fewest_kept = 20;        // of an object
-// Of the evidence that scores 0.5. With the wide tolerances of a quick look right poses have more than this, nearly all
-// of them several times as much.
+// Of the evidence that scores 0.5. With the wide tolerances of a quick look right poses have several times as much, but
+// for objects of which next to nothing is in sight: these need the first ones of their object whatever their evidence.
 constexpr double least_evidence = 0.75;
 
 }  // namespace
@@ -23,7 +24,7 @@ std::vector<PoseCandidate> mostPromisingCandidates(std::vector<PoseCandidate> ca
                                                    const Settings& settings, int threads) {
   const int rounds = int(first_rounds * settings.refinement.iterations);
   const double least = least_evidence * settings.verification.half_evidence;
-  std::vector<char> hopeless(candidates.size(), 0);
+  std::vector<double> evidence(candidates.size());
 #pragma omp parallel for schedule(dynamic, 16) num_threads(threads)
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     PoseCandidate& candidate = candidates[i];
@@ -32,19 +33,18 @@ std::vector<PoseCandidate> mostPromisingCandidates(std::vector<PoseCandidate> ca
         refineAlongRays(surface.sample, scene, settings.refinement, rounds, candidate.T_scene_model);
     const RoughSupport support = roughSupport(surface, scene, T);
     candidate.pre_score = support.scoreWithoutVotes();
-    hopeless[i] = examiner.roughEvidence(candidate.object, candidate.view, candidate.stands, T, support) < least;
+    evidence[i] = examiner.roughEvidence(candidate.object, candidate.view, candidate.stands, T, support);
   }
-  std::vector<PoseCandidate> promising;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (!hopeless[i]) promising.push_back(candidates[i]);
-  }
-  std::stable_sort(promising.begin(), promising.end(),
-                   [](const PoseCandidate& a, const PoseCandidate& b) { return a.pre_score > b.pre_score; });
+  std::vector<std::size_t> order(candidates.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return candidates[a].pre_score > candidates[b].pre_score; });
   const int most = std::max(fewest_kept, int(kept_share * settings.verification.candidates));
   std::vector<int> count(models.codebook->objects.size(), 0);
   std::vector<PoseCandidate> kept;
-  for (const PoseCandidate& candidate : promising) {
-    if (count[candidate.object]++ < most) kept.push_back(candidate);
+  for (const std::size_t i : order) {
+    const int rank = count[candidates[i].object]++;
+    if (rank < fewest_kept || (rank < most && evidence[i] >= least)) kept.push_back(candidates[i]);
   }
   return kept;
 }

@@ -11,8 +11,8 @@
 namespace sks {
 
 /// Of each object the four fifths of the candidates that fit the scene best after some rounds of ICP with few points,
-/// without those whose rough evidence is hopelessly small: by then right ones stand out. Best first; their poses are as
-/// they were. The same for any number of threads.
+/// and of these beyond the first 20 only those whose rough evidence is not hopelessly small: by then right ones stand
+/// out. Best first; their poses are as they were. The same for any number of threads.
 std::vector<PoseCandidate> mostPromisingCandidates(std::vector<PoseCandidate> candidates, const PoseExaminer& examiner,
                                                    const VerifiedModels& models, const SceneView& scene,
                                                    const Settings& settings, int threads);
