@@ -54,6 +54,6 @@ install(TARGETS ${sks_ros_libraries} ${PROJECT_NAME}_nodelets
   ARCHIVE DESTINATION ${sks_lib_dir}
   LIBRARY DESTINATION ${sks_lib_dir}
   RUNTIME DESTINATION ${sks_bin_dir})
-install(PROGRAMS scripts/measure_training.py scripts/soak scripts/train_client.py DESTINATION ${sks_bin_dir})
+install(PROGRAMS scripts/measure_node.py scripts/measure_training.py scripts/soak scripts/train_client.py DESTINATION ${sks_bin_dir})
 install(FILES nodelet_plugins.xml DESTINATION ${sks_share_dir})
 install(DIRECTORY launch DESTINATION ${sks_share_dir})

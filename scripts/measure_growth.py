@@ -94,7 +94,7 @@ class Run:
             sys.exit('failed: ' + ' '.join(command))
         self.seconds = time.monotonic() - start
         self.cpu = usage.ru_utime + usage.ru_stime
-        self.peak = usage.ru_maxrss / 1024  # KiB
+        self.peak = usage.ru_maxrss * 1024 / 1e6  # it counts KiB
 
 
 class Growth:

@@ -99,7 +99,7 @@ class Process:
 
     def memory(self, key):
         with open(f'/proc/{self.pid}/status', encoding='ascii') as status:
-            return int(dict(line.split(':', 1) for line in status)[key].split()[0]) / 1024
+            return int(dict(line.split(':', 1) for line in status)[key].split()[0]) * 1024 / 1e6  # it counts KiB
 
     def _stat(self, first, count=1):
         """The sum of some numbers of clock ticks, counted as in `man proc`, in seconds."""

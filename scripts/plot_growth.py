@@ -42,6 +42,8 @@ def objects(axes, growth):
     scores = {}
     for name in growth['alone']:
         scores[name] = [row['scores'].get(name, {}).get('f1') for row in rows]
+    for number, (name, score) in enumerate(growth['alone'].items()):
+        axes[2].axhline(score['f1'], linestyle=':', color=f'C{number}', label=f'{name}, its objects alone')
     draw(axes[2], counts, scores, ylabel='F1', ylim=(0, 1), title='accuracy')
     for panel in axes:
         panel.set_xlabel('objects')
@@ -71,7 +73,7 @@ def main():
         growth = json.load(file)
     with open(options.words, encoding='utf-8') as file:
         benchmark = json.load(file)
-    plt.rcParams['svg.hashsalt'] = 'growth'  # the same figures give the same bytes
+    plt.rcParams.update({'svg.hashsalt': 'growth', 'svg.fonttype': 'none'})  # the same figures give the same bytes, and few of them
     figure, axes = plt.subplots(2, 3, figsize=(11, 6.5))
     objects(axes[0], growth)
     words(axes[1], benchmark)

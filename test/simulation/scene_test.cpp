@@ -172,6 +172,17 @@ TEST(MeshSamples, AreRegisteredInTheFrameOfTheMesh) {
   EXPECT_LT((seen.max() - mesh->box().max()).norm(), 0.004f);
 }
 
+// What renders them is let go when each has been loaded once.
+TEST(MeshSamples, MayBeLoadedAgainAndInAnyOrder) {
+  MeshTraining training;
+  training.views = 4;
+  const auto mesh = std::make_shared<const Mesh>(makeBox({0.1f, 0.06f, 0.2f}, plain({9, 8, 7}), 0.05f));
+  const auto samples = meshSamples("box", "box.obj", mesh, training);
+  std::vector<Cloud> first;
+  for (const TrainingSample& sample : samples) first.push_back(sample.load());
+  for (const std::size_t i : {3u, 3u, 0u, 1u, 2u, 0u}) EXPECT_EQ(samples[i].load().points, first[i].points) << i;
+}
+
 TEST(MeshSamples, MeshWithoutColourGivesViewsWithoutColour) {
   Mesh mesh = makeSphere(0.05f, 3, plain({}));
   mesh.colors.clear();
