@@ -353,7 +353,7 @@ struct TrainingSettings {
   }
 };
 
-struct TrackingSettings {
+struct TrackerSettings {
   double redetect = 2.0;
   double max_age = 2.0;
 
@@ -380,7 +380,7 @@ struct Settings {
   RefinementSettings refinement;
   VerificationSettings verification;
   DetectionSettings detection;
-  TrackingSettings tracking;
+  TrackerSettings tracker;
   TrainingSettings training;
   int threads = 0;
 
@@ -396,7 +396,7 @@ struct Settings {
     v.group("refinement", s.refinement);
     v.group("verification", s.verification);
     v.group("detection", s.detection);
-    v.group("tracking", s.tracking);
+    v.group("tracker", s.tracker);
     v.group("training", s.training);
     v(s.threads, "threads", Range{0, 256}, "",
       "threads for training and detection; smaller: slower, but more of the processor is left to other programs; 0: "

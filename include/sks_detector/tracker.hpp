@@ -30,13 +30,13 @@ struct TrackedObject {
   Detection detection;
   bool seen = false;  ///< in this cloud; else it is hidden, and the pose is where it should be
   double age = 0;     ///< since it was first seen [s]
-  double unseen = 0;  ///< since it was last seen [s]; at most `tracking.max_age`
+  double unseen = 0;  ///< since it was last seen [s]; at most `tracker.max_age`
 };
 
 /// What a tracker has done so far.
 struct TrackingCounts {
   std::uint64_t begun = 0;             ///< objects that were followed
-  std::uint64_t lost = 0;              ///< of these, not seen for `tracking.max_age`
+  std::uint64_t lost = 0;              ///< of these, not seen for `tracker.max_age`
   std::uint64_t found_again = 0;       ///< by a detection elsewhere, before that
   std::uint64_t identity_changes = 0;  ///< objects that turned out to be another one
 };
@@ -48,7 +48,7 @@ struct TrackingCounts {
 ///     if (tracker.wantsDetection(view.stamp))                      // now and then, perhaps in another thread
 ///       tracker.take(detector.detect(cloud, nullptr, tracker.occupied()), view);
 ///
-/// A track that was not seen for `tracking.max_age` ends. An object is told once two clouds have shown it, and stays
+/// A track that was not seen for `tracker.max_age` ends. An object is told once two clouds have shown it, and stays
 /// as long as the pooled score of its last clouds does: a single doubtful cloud neither makes nor loses it.
 /// Deterministic for the same calls, whatever `threads` is. Not thread-safe; detections of earlier clouds may be taken.
 class Tracker {
@@ -64,7 +64,7 @@ public:
   Tracker& operator=(Tracker&&) noexcept;
 
   /// The objects in a new cloud, the most certain first: those that are seen, and those that stood still and are
-  /// hidden, whose score falls to 0 by `tracking.max_age`. A stamp before that of the last cloud ends all tracks: time
+  /// hidden, whose score falls to 0 by `tracker.max_age`. A stamp before that of the last cloud ends all tracks: time
   /// has jumped.
   /// @throws Error(incompatible) for a cloud without colour with CSHOT
   std::vector<TrackedObject> follow(const Cloud& cloud, const CloudView& view);
@@ -74,7 +74,7 @@ public:
   /// @param view of the cloud that was searched: the last one or an earlier one of the last few seconds
   void take(const DetectionResult& result, const CloudView& view);
 
-  /// Whether the scene should be searched: never done, `tracking.redetect` ago, or something is neither seen nor
+  /// Whether the scene should be searched: never done, `tracker.redetect` ago, or something is neither seen nor
   /// hidden.
   bool wantsDetection(double stamp) const;
 

@@ -63,7 +63,7 @@ struct NodeSettings {
       "frame of each detection; {object} stands for its name, {number} for 1, 2 ... of one object in a cloud; without "
       "{number} the second is called mug_2 and so on");
     v(s.tracking, "tracking",
-      "follow objects from cloud to cloud, at the rate of the camera, and search for new ones beside it (tracking.*); "
+      "follow objects from cloud to cloud, at the rate of the camera, and search for new ones beside it (tracker.*); "
       "else every cloud is searched anew");
     v(s.fixed_frame, "fixed_frame",
       "with ~tracking: frame in which things stand still while the camera moves, e.g. odom; empty: objects are "

@@ -52,11 +52,11 @@ TEST_F(SimulateCommand, SameSeedSameFiles) {
 
 TEST_F(SimulateCommand, ASequenceTellsWhereTheCameraWas) {
   ASSERT_EQ(runSks({"simulate", "--output", folder_.path("a"), "--mesh", "mug=builtin:mug", "--objects", "1",
-                    "--distractors", "0", "--sequence", "0.3", "--frame-rate", "10"})
+                    "--distractors", "0", "--sequence", "0.4", "--frame-rate", "10"})
                 .status,
             0);
   const DataSet data_set = loadDataSet(folder_.path("a/dataset.yaml"));
-  ASSERT_EQ(data_set.scenes.size(), 3u);
+  ASSERT_EQ(data_set.scenes.size(), 4u);
   std::istringstream lines(readTextFile(folder_.path("a/camera.txt")));
   std::string line;
   std::size_t scene = 0;
@@ -71,15 +71,16 @@ TEST_F(SimulateCommand, ASequenceTellsWhereTheCameraWas) {
     numbers >> stamp >> p.x() >> p.y() >> p.z() >> q.x() >> q.y() >> q.z() >> q.w();
     T_table_camera = Eigen::Translation3d(p) * q;
     EXPECT_NEAR(stamp, 0.1 * double(scene), 1e-6);
-    // the mug stands still on the table, before the push
-    const Eigen::Vector3d mug =
-        T_table_camera * data_set.scenes.at(scene).objects.at(0).T_scene_reference.value().translation();
     EXPECT_NEAR(q.norm(), 1, 1e-6);
-    if (scene == 0) first = mug;
-    EXPECT_LT((mug - first).norm(), scene < 2 ? 1e-4 : 0.11);
+    const auto& objects = data_set.scenes.at(scene).objects;
+    if (scene < 2) {  // before the push
+      const Eigen::Vector3d mug = T_table_camera * objects.at(0).T_scene_reference.value().translation();
+      if (scene == 0) first = mug;
+      EXPECT_LT((mug - first).norm(), 1e-4);
+    }
     ++scene;
   }
-  EXPECT_EQ(scene, 3u);
+  EXPECT_EQ(scene, 4u);
 }
 
 TEST_F(SimulateCommand, MixesNoTwoDataSets) {

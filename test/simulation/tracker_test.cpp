@@ -2,6 +2,7 @@
 #include <sks_detector/tracker.hpp>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 
 #include <gmock/gmock.h>
@@ -139,7 +140,7 @@ TEST_F(TrackerTest, FollowsWhatOneSearchFoundWhileTheCameraMoves) {
   }
   EXPECT_EQ(tracker_.counts().begun, 2u);
   EXPECT_EQ(tracker_.counts().identity_changes, 0u);
-  EXPECT_TRUE(tracker_.wantsDetection(stamp_ + codebook_->settings.tracking.redetect));
+  EXPECT_TRUE(tracker_.wantsDetection(stamp_ + codebook_->settings.tracker.redetect));
 }
 
 TEST_F(TrackerTest, IsTheSameForAnyNumberOfThreads) {
@@ -207,7 +208,7 @@ TEST_F(TrackerTest, WhatWasTakenAwayIsNotToldAndSoonForgotten) {
   EXPECT_NE(idOf(objects, "drill"), 0u);
   EXPECT_TRUE(tracker_.wantsDetection(stamp_));
   EXPECT_EQ(tracker_.size(), 2u);
-  stamp_ += codebook_->settings.tracking.max_age;
+  stamp_ += codebook_->settings.tracker.max_age;
   next();
   EXPECT_EQ(tracker_.size(), 1u);
   EXPECT_EQ(tracker_.counts().lost, 1u);
@@ -230,9 +231,18 @@ TEST_F(TrackerTest, WhatIsHiddenIsRememberedForAWhile) {
   renderer_.setVisible(cover_, false);
   EXPECT_EQ(idOf(next(), "duck"), duck);
   renderer_.setVisible(cover_, true);
-  stamp_ += 1.1 * codebook_->settings.tracking.max_age;
+  stamp_ += 1.1 * codebook_->settings.tracker.max_age;
   EXPECT_EQ(idOf(next(), "duck"), 0u);
   EXPECT_EQ(tracker_.size(), 1u);
+}
+
+TEST_F(TrackerTest, WhereNothingWasMeasuredNothingIsTold) {
+  begin();
+  Cloud lost = see();
+  for (auto& point : lost.points) point.setConstant(std::numeric_limits<float>::quiet_NaN());
+  stamp_ += 0.1;
+  EXPECT_THAT(tracker_.follow(lost, view()), IsEmpty());
+  EXPECT_THAT(next(), SizeIs(2));
 }
 
 TEST_F(TrackerTest, WhatIsFoundElsewhereIsTheSameObject) {

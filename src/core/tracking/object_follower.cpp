@@ -38,7 +38,7 @@ FollowedObject ObjectFollower::follow(const Cloud& cloud, const Hypothesis& expe
                                       Look look) const {
   const Codebook& codebook = *models_->codebook;
   const TrainingView& view = codebook.views[expected.view];
-  FollowedObject followed{expected, 1, 0, {}};
+  FollowedObject followed{expected, 0, 0, {}};
   followed.hypothesis.evidence = 0;
   followed.hypothesis.T_scene_model = starts.front();
   const Eigen::Isometry3d T_cloud_box = starts.front() * Eigen::Translation3d(view.center().cast<double>());

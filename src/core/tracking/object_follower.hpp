@@ -19,7 +19,7 @@ namespace sks {
 /// An object in one cloud, where it was expected.
 struct FollowedObject {
   Hypothesis hypothesis;                       ///< the pose that fits best, with its evidence, of a full look
-  double hidden = 1;                           ///< share of what faces the sensor that is behind something else
+  double hidden = 0;                           ///< share of what faces the sensor that is behind something else
   double confirmed = 0;                        ///< share of what should be seen that the cloud confirms, in [0, 1]
   std::optional<Eigen::Vector3f> color_shift;  ///< as in SightLines, of the whole shift
 };

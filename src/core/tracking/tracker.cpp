@@ -126,7 +126,7 @@ void Tracker::State::dropDoubles() {
 }
 
 void Tracker::State::dropOld(double now) {
-  const auto is_old = [&](const Track& track) { return now - track.seenAt() > settings().tracking.max_age; };
+  const auto is_old = [&](const Track& track) { return now - track.seenAt() > settings().tracker.max_age; };
   const auto first = std::stable_partition(tracks.begin(), tracks.end(), [&](const Track& t) { return !is_old(t); });
   counts.lost += std::uint64_t(std::count_if(first, tracks.end(), [](const Track& t) { return t.confirmed(); }));
   tracks.erase(first, tracks.end());
@@ -141,7 +141,7 @@ TrackedObject Tracker::State::told(const Track& track, double now) const {
   object.seen = track.seen();
   object.age = now - track.begun();
   object.unseen = now - track.seenAt();
-  const double left = 1 - object.unseen / settings().tracking.max_age;
+  const double left = 1 - object.unseen / settings().tracker.max_age;
   object.detection = toDetection(codebook(), hypothesis, track.score(settings()) * std::max(0.0, left));
   return object;
 }
@@ -264,7 +264,7 @@ void Tracker::take(const DetectionResult& result, const CloudView& view) {
 
 bool Tracker::wantsDetection(double stamp) const {
   const State& s = *state_;
-  if (stamp - timeOrNever(s.searched, s.searched_at) >= s.settings().tracking.redetect) return true;
+  if (stamp - timeOrNever(s.searched, s.searched_at) >= s.settings().tracker.redetect) return true;
   return std::any_of(s.tracks.begin(), s.tracks.end(), [](const Track& t) { return !t.seen() && !t.hidden(); });
 }
 
