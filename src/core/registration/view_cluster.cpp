@@ -14,19 +14,6 @@ constexpr double majority = 2;  // weight of the relations that agree on a pose 
 
 }  // namespace
 
-Eigen::Isometry3d poseOfItsOwn(const CapturedView& view) {
-  if (!view.plane) return Eigen::Isometry3d::Identity();
-  const Eigen::Vector3d up = view.plane->normal(), foot = view.plane->projection(view.center);
-  const Eigen::Vector3d to_camera = view.surface.sensor_origin.cast<double>() - foot;
-  Eigen::Vector3d x = to_camera - up.dot(to_camera) * up;
-  if (x.norm() < 1e-6) x = up.unitOrthogonal();
-  x.normalize();
-  Eigen::Isometry3d T_view_model = Eigen::Isometry3d::Identity();
-  T_view_model.linear() << x, up.cross(x), up;
-  T_view_model.translation() = foot;
-  return T_view_model.inverse();
-}
-
 void ViewCluster::begin(const ViewLoop& loop) {
   first_ = std::min({loop.i, loop.j, loop.k});
   poses_[loop.i] = Eigen::Isometry3d::Identity();

@@ -14,6 +14,7 @@
 
 #include "core/registration/pose_graph.hpp"
 #include "core/registration/relation_table.hpp"
+#include "core/registration/upright_pair.hpp"
 #include "core/registration/view_placement.hpp"
 
 namespace sks {
@@ -28,10 +29,6 @@ struct PoseProposal {
   double weight = 0;      // of the relations that agree
   std::size_t edges = 0;  // how many
 };
-
-/// The pose of a view before anything is known of others: where its plane is known, z is the plane's normal, x points
-/// to the camera and the origin lies on the plane below the middle of what it shows; else that of its camera.
-Eigen::Isometry3d poseOfItsOwn(const CapturedView& view);
 
 /// Views that are tied to each other, beginning with one loop of three (docs/method.md, section 16). Refers to all that
 /// it is made of. Deterministic for any number of threads.
@@ -61,8 +58,18 @@ public:
   /// Aligns all pairs anew from the common poses, drops what does not fit, and optimises again.
   void complete();
 
-  /// Lets views go that fit the others as well at another turn about the normal of the plane, all planes being known.
-  void dropAmbiguous();
+  /// Takes views on known planes that were put together otherwise, and optimises their poses by the relations.
+  void adopt(const ViewPoses& poses);
+
+  /// Drops views that contradict others, and those that show something else besides.
+  /// @return of each view that contradicts: the one that it contradicts most; else -1
+  std::vector<std::ptrdiff_t> dropContradicted();
+
+  /// Drops views that share too little with the others to be confirmed by two of them.
+  void dropUnshared();
+
+  /// Drops a view that could be turned by an angle [rad] and fit as well.
+  void letGo(std::size_t view, double other_turn);
 
   /// Moves the model so that a view, which must be tied, gets a pose: where its plane is known, the turn of that about
   /// z. Without a pose: x points to where the view was taken from, or else the model has the frame of the view.
@@ -111,7 +118,6 @@ private:
   void dropLoose();
   void dropForeign();
   double foreignShare(std::size_t view) const;
-  std::optional<double> findOtherTurn(std::size_t view) const;
 
   const RelationTable& table_;
   const Settings& settings_;

@@ -12,6 +12,7 @@
 #include <sks_detector/settings.hpp>
 
 #include "core/registration/relation_table.hpp"
+#include "core/registration/upright_pair.hpp"
 #include "core/registration/view_relation.hpp"
 
 namespace sks {
@@ -28,13 +29,19 @@ struct TiedViews {
   std::optional<Symmetry> symmetry;  ///< under which all views look the same: no turn under it is wrong
 };
 
-/// Ties views by their relative poses. A relative pose is believed only together with others that close a loop with it,
+/// What is known of the views of an object, two by two.
+struct PairwiseKnowledge {
+  std::vector<ViewRelation> relations;  ///< of relateViews(), of all pairs, unless all views are on known planes
+  std::vector<UprightPair> upright;     ///< of compareUpright(), of all pairs of views on known planes
+};
+
+/// Ties views on known planes by putting all of them together at once (assembledUpright()); those whose turn stays open
+/// are let go. Ties others by their relative poses. A relative pose is believed only together with others that close a loop with it,
 /// and only while what the cameras saw of the whole agrees; the poses of all are then optimised together. Where planes
 /// are known, they lie in z = 0 of the model and its x axis points to where the first view was taken from; else the
 /// model frame is that of the first view. The first view is that of registerViews(). Deterministic for any number of
 /// threads.
-/// @param relations of relateViews() of all pairs
-TiedViews tieViews(const std::vector<CapturedView>& views, const std::vector<ViewRelation>& relations,
+TiedViews tieViews(const std::vector<CapturedView>& views, const PairwiseKnowledge& pairs,
                    const Settings& settings, const PairLimits& limits, const LoopLimits& loops, int threads);
 
 }  // namespace sks
