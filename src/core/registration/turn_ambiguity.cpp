@@ -4,18 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <limits>
+#include <set>
 
 namespace sks {
 namespace {
 
-constexpr std::size_t other_turns = 36;                                // 10 degrees apart
-constexpr double refuting = 40;                                        // least loss of a group that is turned wrongly
-constexpr double other_turn_limit = 0.14;                              // [rad] 8 degrees: nearer ones are the same turn
-constexpr UprightRounds whole_rounds{2, 8, 0.025, 0.008, 60, false};   // of the whole model on itself
-constexpr UprightRounds group_rounds{2, 8, 0.025, 0.008, 150, false};  // of a group on the rest
-constexpr std::size_t refuting_points = 300;
+constexpr std::size_t other_turns = 36;                               // 10 degrees apart
+constexpr double refuting = 80;                                       // least loss of a group that is turned wrongly
+constexpr double other_turn_limit = 0.14;                             // [rad] 8 degrees: nearer ones are the same turn
+constexpr UprightRounds whole_rounds{2, 6, 0.025, 0.008, 50, false};  // of the whole model on itself
+constexpr UprightRounds group_rounds{2, 6, 0.025, 0.008, 80, false};  // of a group on the rest
+constexpr double worth_aligning = 1000;                               // loss of a group before it is aligned
 constexpr int highest_order = 8;
 
 /// A group that could be turned.
@@ -38,7 +38,8 @@ public:
     }
     Eigen::AlignedBox3d box;
     for (const std::size_t v : tied_) {
-      for (std::size_t i = 0; i < views[v].points.size(); ++i) box.extend(*poses[v] * views[v].points.point(i).cast<double>());
+      for (std::size_t i = 0; i < views[v].points.size(); ++i)
+        box.extend(*poses[v] * views[v].points.point(i).cast<double>());
     }
     middle_ = box.center();
   }
@@ -55,14 +56,17 @@ public:
     const Eigen::Isometry3d start = Eigen::Translation3d(middle_) * turned * Eigen::Translation3d(-middle_);
     const Eigen::Isometry3d whole = alignedMotion(views_, poses_, tied_, tied_, start, whole_rounds);
     Result result;
+    std::set<std::vector<std::size_t>> groups;
     const std::vector<double> losses = lossesBy(whole);
     result.all_fit = isOther(whole);
     for (const std::size_t v : tied_) {
       double loss = 0;
       for (const std::size_t t : tied_) loss += losses[v * views_.size() + t];
       result.all_fit = result.all_fit && loss <= refuting;
-      consider(grownFrom(v, losses), whole, result);
+      const TurnedGroup group = grownFrom(v, losses);
+      if (group.loss <= worth_aligning) groups.insert(group.views);
     }
+    for (const std::vector<std::size_t>& group : groups) consider({group, 0}, whole, result);
     // alone, a view may fit where the whole does not
     for (const std::size_t v : tied_) consider({{v}, 0}, start, result);
     return result;
@@ -74,8 +78,7 @@ private:
   double gain(std::size_t v, const Eigen::Isometry3d& T_v, std::size_t t, const Eigen::Isometry3d& T_t) const {
     const UprightPair& pair = *pair_of_[v * views_.size() + t];
     const Eigen::Isometry3d T_t_v = T_t.inverse() * T_v;
-    return pair.gainOf(pair.a == v ? evidenceFor(views_[v], views_[t], T_t_v, settings_, refuting_points)
-                                   : evidenceFor(views_[t], views_[v], T_t_v.inverse(), settings_, refuting_points));
+    return pair.gainAt(views_, pair.a == v ? T_t_v : T_t_v.inverse(), settings_);
   }
 
   /// What each pair loses if the first view of it is moved.
@@ -84,7 +87,8 @@ private:
     for (const std::size_t v : tied_) {
       for (const std::size_t t : tied_) {
         if (t == v) continue;
-        losses[v * views_.size() + t] = gain(v, *poses_[v], t, *poses_[t]) - gain(v, motion * *poses_[v], t, *poses_[t]);
+        losses[v * views_.size() + t] =
+            gain(v, *poses_[v], t, *poses_[t]) - gain(v, motion * *poses_[v], t, *poses_[t]);
       }
     }
     return losses;
@@ -116,6 +120,7 @@ private:
         next = v;
       }
     }
+    std::sort(best.views.begin(), best.views.end());
     return best;
   }
 
@@ -159,15 +164,9 @@ TurnAmbiguity findOtherTurns(const std::vector<CapturedView>& views, const ViewP
   for (int order = 2; order <= highest_order; ++order) {
     if (other_turns % std::size_t(order) != 0) continue;
     bool all = true;
-    for (std::size_t k = 1; k < std::size_t(order); ++k) all = all && results[k * other_turns / std::size_t(order)].all_fit;
+    for (std::size_t k = 1; k < std::size_t(order); ++k)
+      all = all && results[k * other_turns / std::size_t(order)].all_fit;
     if (all) ambiguity.order = order;
-  }
-  if (std::getenv("SKS_STUDY")) {
-    for (std::size_t turn = 1; turn < other_turns; ++turn) {
-      std::fprintf(stderr, "turn %zu: loss %.0f at %.0f group", turn * 10, results[turn].group.loss, results[turn].turn * 180 / EIGEN_PI);
-      for (auto v : results[turn].group.views) std::fprintf(stderr, " %zu", v);
-      std::fprintf(stderr, "%s\n", results[turn].all_fit ? " all fit" : "");
-    }
   }
   for (std::size_t turn = 1; turn < other_turns; ++turn) {
     const OtherTurns::Result& result = results[turn];

@@ -22,7 +22,8 @@ struct TurnAmbiguity {
 };
 
 /// Looks for turns of single views and groups of them that what all cameras saw does not refute. A turn that no view
-/// refutes is a symmetry of the object, as far as it was seen, and no ambiguity. Deterministic for any number of threads.
+/// refutes is a symmetry of the object, as far as it was seen, and no ambiguity. Deterministic for any number of
+/// threads.
 /// @param poses z upwards
 TurnAmbiguity findOtherTurns(const std::vector<CapturedView>& views, const ViewPoses& poses,
                              const std::vector<UprightPair>& pairs, const VerificationSettings& settings, int threads);

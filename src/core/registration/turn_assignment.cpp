@@ -7,10 +7,10 @@
 namespace sks {
 namespace {
 
-constexpr std::size_t most_starts = 60;   // pairs from which views are assigned
-constexpr std::size_t other_turn = 6;     // steps from which on a turn is another one
-constexpr int most_rounds = 20;           // of turning views and groups
-constexpr double worth = 1e-6;            // least gain of a move
+constexpr std::size_t most_starts = 60;  // pairs from which views are assigned
+constexpr std::size_t other_turn = 6;    // steps from which on a turn is another one
+constexpr int most_rounds = 20;          // of turning views and groups
+constexpr double worth = 1e-6;           // least gain of a move
 
 std::size_t difference(std::size_t turn, std::size_t from) {
   return (turn + pair_turns - from) % pair_turns;

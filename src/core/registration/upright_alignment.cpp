@@ -55,7 +55,8 @@ private:
 /// direction; where it looked past the object, or through the point, for the way to what it saw of the object.
 template <typename Function>
 void forEachUprightPair(const CapturedView& from, const Eigen::Isometry3d& T_model_from, const CapturedView& into,
-                        const Eigen::Isometry3d& T_model_into, double distance, std::size_t points, bool only_outlines, Function&& f) {
+                        const Eigen::Isometry3d& T_model_into, double distance, std::size_t points, bool only_outlines,
+                        Function&& f) {
   const Eigen::Isometry3f T = (T_model_into.inverse() * T_model_from).cast<float>();
   const std::size_t stride = std::max<std::size_t>(1, from.points.size() / points);
   for (std::size_t i = 0; i < from.points.size(); i += stride) {

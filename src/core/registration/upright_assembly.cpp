@@ -11,7 +11,6 @@ namespace {
 
 // From sweep to sweep views are turned by less [rad], to find what prints tell beyond the shape.
 constexpr double turn_steps[] = {0.105, 0.052, 0.026, 0.013, 0.013};
-constexpr std::size_t assembled_points = 300;
 constexpr double worth = 0.5;  // least gain of a move
 constexpr UprightRounds moving_rounds{0, 4, 0.012, 0.006, 150, false};
 
@@ -65,8 +64,7 @@ private:
       if (pair.a != view && pair.b != view) continue;
       const Eigen::Isometry3d T_model_a = pair.a == view ? T_model_view : *poses_[pair.a];
       const Eigen::Isometry3d T_model_b = pair.b == view ? T_model_view : *poses_[pair.b];
-      sum += pair.gainOf(evidenceFor(views_[pair.a], views_[pair.b], T_model_b.inverse() * T_model_a, settings_,
-                                     assembled_points));
+      sum += pair.gainAt(views_, T_model_b.inverse() * T_model_a, settings_);
     }
     return sum;
   }

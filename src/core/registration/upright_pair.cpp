@@ -9,13 +9,14 @@
 namespace sks {
 namespace {
 
-constexpr double contradiction_loss = 4;  // of a patch: log of how much rarer they are in right poses than in wrong ones
+constexpr double contradiction_loss =
+    4;                                  // of a patch: log of how much rarer they are in right poses than in wrong ones
 constexpr double overlap_worth = 0.02;  // of a patch: where nothing else tells, views share what they can
 constexpr double telling_overlap = 0.15;
-constexpr std::size_t compared_points = 200, aligned_points = 100;
+constexpr std::size_t aligned_points = 100;
 constexpr int outline_rounds = 6;
 constexpr std::size_t free_step = 2;  // turns from one to the next from which alignment finds the turn, too
-constexpr double least_gain = -60;  // what contradicts more is as wrong
+constexpr double least_gain = -60;    // what contradicts more is as wrong
 constexpr double turn_step = 2 * double(EIGEN_PI) / double(pair_turns);
 
 /// The cell of a turn.
@@ -27,7 +28,12 @@ std::size_t turnAt(double angle) {
 }  // namespace
 
 double UprightPair::gainOf(const ViewEvidence& e) const {
-  return e.shape + (overlap_worth - best_shape) * e.matched + e.color - mean_color * e.matched - contradiction_loss * e.against;
+  return e.shape + (overlap_worth - best_shape) * e.matched + e.color - contradiction_loss * e.against;
+}
+
+double UprightPair::gainAt(const std::vector<CapturedView>& views, const Eigen::Isometry3d& T_b_a,
+                           const VerificationSettings& settings) const {
+  return gainOf(ViewComparison(views[a], views[b], settings).at(T_b_a, usual_a, usual_b));
 }
 
 Eigen::Isometry3d poseOfItsOwn(const CapturedView& view) {
@@ -59,36 +65,35 @@ UprightPair compareUpright(const std::vector<CapturedView>& views, std::size_t a
   free.points = held.points = aligned_points;
   held.holds_turn = true;
   held.outlines = outline_rounds;
+  const ViewComparison comparison(views[a], views[b], settings);
   struct Tried {
     std::size_t turn;
     Eigen::Isometry3d T_b_a;
-    ViewEvidence evidence;
   };
   std::vector<Tried> tried;
-  double matched = 0;
   for (std::size_t turn = 0; turn < pair_turns; ++turn) {
     const Eigen::Isometry3d start(Eigen::AngleAxisd(double(turn) * turn_step, Eigen::Vector3d::UnitZ()));
     const Eigen::Isometry3d at_turn = alignedUpright(views, poses, a, start * own_a, held);
-    for (int way = 0; way < (turn % free_step == 0 ? 2 : 1); ++way) {
-      const Eigen::Isometry3d T = way == 0 ? at_turn : alignedUpright(views, poses, a, at_turn, free);
-      const Eigen::Isometry3d T_b_a = own_b.inverse() * T;
-      const ViewEvidence evidence = evidenceFor(views[a], views[b], T_b_a, settings, compared_points);
-      tried.push_back({turnAt(turnOf(T * own_a.inverse())), T_b_a, evidence});
-      matched += evidence.matched;
-      if (evidence.overlap >= telling_overlap) {
-        pair.best_shape = std::max(pair.best_shape, evidence.shape / evidence.matched);
-      }
-      pair.mean_color += evidence.color;
-    }
+    tried.push_back({turn, own_b.inverse() * at_turn});
+    comparison.learn(tried.back().T_b_a, pair.usual_a, pair.usual_b);
+    if (turn % free_step != 0) continue;
+    const Eigen::Isometry3d T = alignedUpright(views, poses, a, at_turn, free);
+    tried.push_back({turnAt(turnOf(T * own_a.inverse())), own_b.inverse() * T});
   }
-  if (matched > 0) pair.mean_color /= matched;
+  std::vector<ViewEvidence> evidence;
+  for (const Tried& t : tried) {
+    evidence.push_back(comparison.at(t.T_b_a, pair.usual_a, pair.usual_b));
+    const ViewEvidence& e = evidence.back();
+    if (e.overlap >= telling_overlap) pair.best_shape = std::max(pair.best_shape, e.shape / e.matched);
+  }
   std::array<char, pair_turns> filled{};
   for (UprightAlternative& alternative : pair.at_turn) alternative.gain = least_gain;
-  for (const Tried& t : tried) {
-    const double gain = std::max(least_gain, pair.gainOf(t.evidence));
-    if (filled[t.turn] && gain <= pair.at_turn[t.turn].gain) continue;
-    pair.at_turn[t.turn] = {t.T_b_a, gain, t.evidence.overlap};
-    filled[t.turn] = 1;
+  for (std::size_t k = 0; k < tried.size(); ++k) {
+    const std::size_t turn = tried[k].turn;
+    const double gain = std::max(least_gain, pair.gainOf(evidence[k]));
+    if (filled[turn] && gain <= pair.at_turn[turn].gain) continue;
+    pair.at_turn[turn] = {tried[k].T_b_a, gain, evidence[k].overlap};
+    filled[turn] = 1;
   }
   return pair;
 }

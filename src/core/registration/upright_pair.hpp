@@ -29,14 +29,15 @@ struct UprightPair {
   /// What a matched patch says at best in shape: surfaces that fall on each other are no reason for a turn, since
   /// objects have sides that are alike, but those that do not are one against it.
   double best_shape = 0;
-  /// What it says in colour as the mean over all turns: what does not depend on the turn, like the noise of sensor and
-  /// light, or rings around a can, says nothing of it.
-  double mean_color = 0;
+  UsualPrints usual_a, usual_b;  ///< of the points of each view in the other one
   /// By the turn of a against b, each view seen from its camera in the direction of x at turn 0.
   std::array<UprightAlternative, pair_turns> at_turn;
 
   /// What evidence says for a pose [log-likelihood ratio]; 0: nothing.
   double gainOf(const ViewEvidence& evidence) const;
+  /// The same of a pose. @param views of all pairs
+  double gainAt(const std::vector<CapturedView>& views, const Eigen::Isometry3d& T_b_a,
+                const VerificationSettings& settings) const;
 };
 
 /// The pose of a view before anything is known of others: where its plane is known, z is the plane's normal, x points

@@ -59,7 +59,8 @@ public:
   void complete();
 
   /// Takes views on known planes that were put together otherwise, and optimises their poses by the relations.
-  void adopt(const ViewPoses& poses);
+  /// @param slack by how many times the usual limits poses may be off
+  void adopt(const ViewPoses& poses, double slack);
 
   /// Drops views that contradict others, and those that show something else besides.
   /// @return of each view that contradicts: the one that it contradicts most; else -1

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Views on known planes that were put together all at once: what is kept of them.
 #include <algorithm>
+#include <cmath>
 
 #include "core/registration/view_cluster.hpp"
 
@@ -12,39 +13,41 @@ constexpr double held_turn = 0.02, held_shift = 0.004;
 constexpr std::size_t contradicted_points = 800;
 
 /// A relative pose in the three motions that planes leave.
-PoseEdge heldEdge(const std::vector<CapturedView>& views, std::size_t a, std::size_t b, const Eigen::Isometry3d& T_b_a) {
+PoseEdge heldEdge(const std::vector<CapturedView>& views, std::size_t a, std::size_t b, const Eigen::Isometry3d& T_b_a,
+                  double slack) {
   const Eigen::Vector3d up = views[b].plane->normal();
   const Eigen::Matrix3d along = up * up.transpose();
   PoseEdge edge{a, b, T_b_a, {}};
   edge.information.pivot = T_b_a * views[a].center;
-  edge.information.matrix.topLeftCorner<3, 3>() = along / (held_turn * held_turn);
+  edge.information.matrix.topLeftCorner<3, 3>() = along / std::pow(slack * held_turn, 2);
   edge.information.matrix.bottomRightCorner<3, 3>() =
-      (Eigen::Matrix3d::Identity() - along) / (held_shift * held_shift);
+      (Eigen::Matrix3d::Identity() - along) / std::pow(slack * held_shift, 2);
   return edge;
 }
 
 }  // namespace
 
-void ViewCluster::adopt(const ViewPoses& poses) {
+void ViewCluster::adopt(const ViewPoses& poses, double slack) {
   poses_ = poses;
   const std::vector<CapturedView>& views = table_.views();
   first_ = firstTied();
+  const LoopLimits wide{slack * loops_.angle, slack * loops_.shift};
   std::vector<PoseEdge> all;
   for (std::size_t a = 0; a < poses_.size(); ++a) {
     for (std::size_t b = a + 1; b < poses_.size(); ++b) {
       if (!poses_[a] || !poses_[b]) continue;
       const Eigen::Isometry3d T_b_a = poses_[b]->inverse() * *poses_[a];
-      all.push_back(heldEdge(views, a, b, T_b_a));
+      all.push_back(heldEdge(views, a, b, T_b_a, slack));
       for (const std::size_t r : table_.of(a, b)) {
         const ViewRelation& relation = table_.at(r);
-        if (!(relation.score > 0) || !nearlySame(T_b_a, relation.T_b_a, views[a].center, loops_)) continue;
+        if (!(relation.score > 0) || !nearlySame(T_b_a, relation.T_b_a, views[a].center, wide)) continue;
         edges_.push_back({a, b, relation.T_b_a, relation.information});
         scores_.push_back(relation.score);
         weight_ += relation.score;
       }
     }
   }
-  dropOpenLoops();
+  if (slack <= 1) dropOpenLoops();
   all.insert(all.end(), edges_.begin(), edges_.end());
   solve(all);
 }
@@ -111,7 +114,8 @@ void ViewCluster::dropUnshared() {
         if (!poses_[t] || t == v) continue;
         const std::size_t stride = std::max<std::size_t>(1, views[v].points.size() / contradicted_points);
         const Eigen::Isometry3d T = poses_[t]->inverse() * *poses_[v];
-        sharing += compareViews(views[v], views[t], T, settings_.verification, stride).overlap() >= limits_.least_overlap;
+        sharing +=
+            compareViews(views[v], views[t], T, settings_.verification, stride).overlap() >= limits_.least_overlap;
       }
       if (sharing >= fewest_edges) continue;
       poses_[v].reset();

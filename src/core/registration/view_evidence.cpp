@@ -10,18 +10,20 @@
 namespace sks {
 namespace {
 
-constexpr double patch = 0.007;             // [m] errors nearer to each other than this are alike
-constexpr float depth_deviation = 0.0015f;  // [m]
-constexpr float farthest_deviation = 3;     // standard deviations from which on all is equally wrong
-constexpr float depthless = 0.25f;             // lightness below which a surface may give no depth at all
-constexpr float print_deviation = 0.25f;    // of each axis of printsOf()
-constexpr float outlier_share = 0.05f;      // of prints
+constexpr double patch = 0.007;               // [m] errors nearer to each other than this are alike
+constexpr float depth_deviation = 0.0015f;    // [m]
+constexpr float farthest_deviation = 3;       // standard deviations from which on all is equally wrong
+constexpr float depthless = 0.25f;            // lightness below which a surface may give no depth at all
+constexpr float print_deviation = 0.25f;      // of each axis of printsOf()
+constexpr float outlier_share = 0.05f;        // of prints
 constexpr float largest_common_shift = 0.5f;  // white balance
 constexpr std::size_t least_prints = 10;
+constexpr std::size_t evidence_points = 250;  // of each view
 
 /// A matched point.
 struct PrintPair {
   Eigen::Vector3f own, seen;
+  std::size_t point;
   bool from_a;
 };
 
@@ -48,7 +50,8 @@ void collect(const CapturedView& from, const CapturedView& into, const Eigen::Is
     const float residual = std::min(farthest_deviation, std::abs(seen.cell->normal().dot(apart)) / depth_deviation);
     sums.matched += 1;
     sums.shape += 0.5 * double(1 - residual * residual);
-    if (printed) prints.push_back({from.prints[from.surface_point[i]], into.prints[into.image.pointOf(seen)], from_a});
+    if (printed)
+      prints.push_back({from.prints[from.surface_point[i]], into.prints[into.image.pointOf(seen)], i, from_a});
   }
 }
 
@@ -68,32 +71,74 @@ Eigen::Vector3f printShift(const std::vector<PrintPair>& prints) {
   return shift;
 }
 
-}  // namespace
+/// Calls `f(point, from_a, log_likelihood)` for each pair.
+template <typename Function>
+void forEachLikelihood(const std::vector<PrintPair>& prints, Function&& f) {
+  if (prints.size() < least_prints) return;
+  const Eigen::Vector3f shift = printShift(prints);
+  for (const PrintPair& pair : prints) {
+    const Eigen::Vector3f difference = pair.seen - pair.own - (pair.from_a ? 1.0f : -1.0f) * shift;
+    const float same = std::exp(-0.5f * difference.squaredNorm() / (print_deviation * print_deviation));
+    f(pair.point, pair.from_a, double(std::log((1 - outlier_share) * same + outlier_share)));
+  }
+}
 
-ViewEvidence evidenceFor(const CapturedView& a, const CapturedView& b, const Eigen::Isometry3d& T_b_a,
-                         const VerificationSettings& settings, std::size_t points) {
-  thread_local std::vector<PrintPair> prints;  // keeps its memory from pose to pose
+/// Of all points as many are compared in every pose.
+std::size_t comparedStride(const CapturedView& a, const CapturedView& b) {
+  return std::max<std::size_t>(1, std::max(a.points.size(), b.points.size()) / evidence_points);
+}
+
+/// Matches of both views. They keep their memory from pose to pose.
+const std::vector<PrintPair>& matchedPrints(const CapturedView& a, const CapturedView& b,
+                                            const Eigen::Isometry3d& T_b_a, const VerificationSettings& settings,
+                                            Sums& sums) {
+  thread_local std::vector<PrintPair> prints;
   prints.clear();
-  const std::size_t stride = std::max<std::size_t>(1, std::max(a.points.size(), b.points.size()) / points);
-  Sums sums;
+  const std::size_t stride = comparedStride(a, b);
   collect(a, b, T_b_a.cast<float>(), true, settings, stride, sums, prints);
   collect(b, a, T_b_a.inverse().cast<float>(), false, settings, stride, sums, prints);
+  return prints;
+}
+
+}  // namespace
+
+void UsualPrints::add(std::size_t point, double log_likelihood) {
+  if (point >= sums_.size()) {
+    sums_.resize(point + 1, 0);
+    counts_.resize(point + 1, 0);
+  }
+  sums_[point] += float(log_likelihood);
+  counts_[point] += 1;
+}
+
+double UsualPrints::at(std::size_t point) const {
+  return point < sums_.size() && counts_[point] > 0 ? double(sums_[point] / counts_[point]) : 0;
+}
+
+ViewEvidence ViewComparison::at(const Eigen::Isometry3d& T_b_a, const UsualPrints& usual_a,
+                                const UsualPrints& usual_b) const {
+  Sums sums;
+  const std::vector<PrintPair>& prints = matchedPrints(a_, b_, T_b_a, settings_, sums);
+  const double stride = double(comparedStride(a_, b_));
   // each patch is looked for twice where both saw it
-  const double share = 0.5 * double(stride) * std::min(1.0, double(a.spacing) * double(a.spacing) / (patch * patch));
-  const double least = double(std::min(a.points.size(), b.points.size())) / double(stride);
+  const double share = 0.5 * stride * std::min(1.0, double(a_.spacing) * double(a_.spacing) / (patch * patch));
+  const double least = double(std::min(a_.points.size(), b_.points.size())) / stride;
   ViewEvidence evidence;
   evidence.matched = share * sums.matched;
   evidence.shape = share * sums.shape;
   evidence.against = share * sums.against;
   evidence.overlap = least > 0 ? 0.5 * sums.matched / least : 0;
-  if (prints.size() < least_prints) return evidence;
-  const Eigen::Vector3f shift = printShift(prints);
-  for (const PrintPair& pair : prints) {
-    const Eigen::Vector3f difference = pair.seen - pair.own - (pair.from_a ? 1.0f : -1.0f) * shift;
-    const float same = std::exp(-0.5f * difference.squaredNorm() / (print_deviation * print_deviation));
-    evidence.color += share * double(std::log((1 - outlier_share) * same + outlier_share));
-  }
+  forEachLikelihood(prints, [&](std::size_t point, bool from_a, double likelihood) {
+    evidence.color += share * (likelihood - (from_a ? usual_a : usual_b).at(point));
+  });
   return evidence;
+}
+
+void ViewComparison::learn(const Eigen::Isometry3d& T_b_a, UsualPrints& usual_a, UsualPrints& usual_b) const {
+  Sums sums;
+  forEachLikelihood(
+      matchedPrints(a_, b_, T_b_a, settings_, sums),
+      [&](std::size_t point, bool from_a, double likelihood) { (from_a ? usual_a : usual_b).add(point, likelihood); });
 }
 
 }  // namespace sks

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t most_seeds = 5;                      // loops from which tying is begun; the largest result counts
 constexpr double noise_share = 0.015, noise_factor = 2.5;  // of contradictions, see limitsFor()
 constexpr int assemblies = 3;                              // of all views, without those that did not fit
-constexpr std::size_t sharing_points = 200;                // of a view, by which is seen what it shares
+constexpr double assembly_slack = 4;                       // of loop limits
 constexpr std::size_t fewest_symmetric = 6;                // views from which on an object is known from all around
 constexpr int growths = 2;  // views that drifted poses kept out come in once these are exact
 
@@ -72,7 +72,8 @@ std::vector<ViewRelation> relationsAt(const std::vector<CapturedView>& views, co
   for (std::size_t p = 0; p < pairs.size(); ++p) {
     const auto [a, b] = pairs[p];
     const Eigen::Isometry3d T_b_a = poses[b]->inverse() * *poses[a];
-    const ViewEvidence shared = evidenceFor(views[a], views[b], T_b_a, rules.settings.verification, sharing_points);
+    const ViewEvidence shared =
+        ViewComparison(views[a], views[b], rules.settings.verification).at(T_b_a, UsualPrints(), UsualPrints());
     if (shared.overlap >= rules.widest.least_overlap) {
       relations[p] = relationAt(views[a], views[b], T_b_a, rules.settings, rules.widest);
     }
@@ -140,12 +141,15 @@ private:
       std::vector<UprightPair> among;
       std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(among),
                    [&](const UprightPair& pair) { return left[pair.a] && left[pair.b]; });
-      const ViewPoses poses = assembledUpright(views_, among, rules_.settings.verification);
-      relations_ = relationsAt(views_, poses, rules_);
-      limits_ = limitsFor(relations_, count, rules_.widest);
-      table_.emplace(views_, relations_);
-      tied_.emplace(*table_, rules_.settings, limits_, rules_.loops, rules_.threads);
-      tied_->adopt(poses);
+      ViewPoses poses = assembledUpright(views_, among, rules_.settings.verification);
+      for (const double slack : {assembly_slack, 1.0}) {  // groups of views are some degrees apart at first
+        relations_ = relationsAt(views_, poses, rules_);
+        limits_ = limitsFor(relations_, count, rules_.widest);
+        table_.emplace(views_, relations_);
+        tied_.emplace(*table_, rules_.settings, limits_, rules_.loops, rules_.threads);
+        tied_->adopt(poses, slack);
+        poses = tied_->poses();
+      }
       const std::vector<std::ptrdiff_t> opponents = tied_->dropContradicted();
       bool dropped = false;
       for (std::size_t v = 0; v < count; ++v) {
@@ -173,8 +177,8 @@ private:
         if (!tied_->isTied(v) || !found.other_turn[v]) continue;
         tied_->letGo(v, *found.other_turn[v]);
         const double degrees = std::abs(*found.other_turn[v]) * 180 / EIGEN_PI;
-        reasons_[v] = "it fits the other views as well when it is turned by " + std::to_string(std::lround(degrees)) +
-                      " degrees";
+        reasons_[v] =
+            "it fits the other views as well when it is turned by " + std::to_string(std::lround(degrees)) + " degrees";
         dropped = true;
       }
       if (!dropped || tied_->size() <= fewest_edges) return;
@@ -238,8 +242,8 @@ Eigen::Vector3d middleOf(const CapturedView& view) {
 /// Gives the model the frame that it had when views could be tied first, while there were only those before them: so
 /// the frame stays when views are added. It is that of the first view that was tied then; if that is no longer tied, it
 /// is handed over by a view that was tied together with it. @return TiedViews::first_middle
-Eigen::Vector3d orient(ViewCluster& tied, const std::vector<CapturedView>& views,
-                       const PairwiseKnowledge& found, const Rules& rules) {
+Eigen::Vector3d orient(ViewCluster& tied, const std::vector<CapturedView>& views, const PairwiseKnowledge& found,
+                       const Rules& rules) {
   std::optional<std::size_t> first;
   for (std::size_t count = fewest_edges + 1; count < views.size(); ++count) {
     LargestCluster earlier(views, found, count, rules);
@@ -279,8 +283,8 @@ std::optional<TiedViews> tiedAsRevolved(const std::vector<CapturedView>& views, 
 
 }  // namespace
 
-TiedViews tieViews(const std::vector<CapturedView>& views, const PairwiseKnowledge& found,
-                   const Settings& settings, const PairLimits& limits, const LoopLimits& loops, int threads) {
+TiedViews tieViews(const std::vector<CapturedView>& views, const PairwiseKnowledge& found, const Settings& settings,
+                   const PairLimits& limits, const LoopLimits& loops, int threads) {
   if (std::optional<TiedViews> revolved = tiedAsRevolved(views, settings, limits, threads)) return *revolved;
   const Rules rules{settings, limits, loops, threads};
   LargestCluster best(views, found, views.size(), rules);

@@ -36,12 +36,12 @@ struct PairwiseKnowledge {
 };
 
 /// Ties views on known planes by putting all of them together at once (assembledUpright()); those whose turn stays open
-/// are let go. Ties others by their relative poses. A relative pose is believed only together with others that close a loop with it,
-/// and only while what the cameras saw of the whole agrees; the poses of all are then optimised together. Where planes
-/// are known, they lie in z = 0 of the model and its x axis points to where the first view was taken from; else the
-/// model frame is that of the first view. The first view is that of registerViews(). Deterministic for any number of
-/// threads.
-TiedViews tieViews(const std::vector<CapturedView>& views, const PairwiseKnowledge& pairs,
-                   const Settings& settings, const PairLimits& limits, const LoopLimits& loops, int threads);
+/// are let go. Ties others by their relative poses. A relative pose is believed only together with others that close a
+/// loop with it, and only while what the cameras saw of the whole agrees; the poses of all are then optimised together.
+/// Where planes are known, they lie in z = 0 of the model and its x axis points to where the first view was taken from;
+/// else the model frame is that of the first view. The first view is that of registerViews(). Deterministic for any
+/// number of threads.
+TiedViews tieViews(const std::vector<CapturedView>& views, const PairwiseKnowledge& pairs, const Settings& settings,
+                   const PairLimits& limits, const LoopLimits& loops, int threads);
 
 }  // namespace sks

@@ -62,9 +62,12 @@ bool ViewSilhouette::isOutside(const Eigen::Vector3f& position, float margin) co
 
 /// Between the middles of cells [cells].
 float ViewSilhouette::distanceAt(float column, float row) const {
-  const float c = std::clamp(column - 0.5f, 0.0f, float(width_ - 1)), r = std::clamp(row - 0.5f, 0.0f, float(height_ - 1));
+  const float c = std::clamp(column - 0.5f, 0.0f, float(width_ - 1)),
+              r = std::clamp(row - 0.5f, 0.0f, float(height_ - 1));
   const int left = std::min(int(c), width_ - 2), upper = std::min(int(r), height_ - 2);
-  const auto at = [&](int x, int y) { return float(distances_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]); };
+  const auto at = [&](int x, int y) {
+    return float(distances_[std::size_t(y) * std::size_t(width_) + std::size_t(x)]);
+  };
   const float u = c - float(left), v = r - float(upper);
   return (1 - v) * ((1 - u) * at(left, upper) + u * at(left + 1, upper)) +
          v * ((1 - u) * at(left, upper + 1) + u * at(left + 1, upper + 1));
