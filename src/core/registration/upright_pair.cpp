@@ -33,7 +33,7 @@ double UprightPair::gainOf(const ViewEvidence& e) const {
 
 double UprightPair::gainAt(const std::vector<CapturedView>& views, const Eigen::Isometry3d& T_b_a,
                            const VerificationSettings& settings) const {
-  return gainOf(ViewComparison(views[a], views[b], settings).at(T_b_a, usual_a, usual_b));
+  return gainOf(ViewComparison(views[a], views[b], settings).at(T_b_a, usual));
 }
 
 Eigen::Isometry3d poseOfItsOwn(const CapturedView& view) {
@@ -75,14 +75,14 @@ UprightPair compareUpright(const std::vector<CapturedView>& views, std::size_t a
     const Eigen::Isometry3d start(Eigen::AngleAxisd(double(turn) * turn_step, Eigen::Vector3d::UnitZ()));
     const Eigen::Isometry3d at_turn = alignedUpright(views, poses, a, start * own_a, held);
     tried.push_back({turn, own_b.inverse() * at_turn});
-    comparison.learn(tried.back().T_b_a, pair.usual_a, pair.usual_b);
+    comparison.learn(tried.back().T_b_a, pair.usual);
     if (turn % free_step != 0) continue;
     const Eigen::Isometry3d T = alignedUpright(views, poses, a, at_turn, free);
     tried.push_back({turnAt(turnOf(T * own_a.inverse())), own_b.inverse() * T});
   }
   std::vector<ViewEvidence> evidence;
   for (const Tried& t : tried) {
-    evidence.push_back(comparison.at(t.T_b_a, pair.usual_a, pair.usual_b));
+    evidence.push_back(comparison.at(t.T_b_a, pair.usual));
     const ViewEvidence& e = evidence.back();
     if (e.overlap >= telling_overlap) pair.best_shape = std::max(pair.best_shape, e.shape / e.matched);
   }

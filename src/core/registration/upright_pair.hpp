@@ -29,7 +29,7 @@ struct UprightPair {
   /// What a matched patch says at best in shape: surfaces that fall on each other are no reason for a turn, since
   /// objects have sides that are alike, but those that do not are one against it.
   double best_shape = 0;
-  UsualPrints usual_a, usual_b;  ///< of the points of each view in the other one
+  UsualPrints usual;
   /// By the turn of a against b, each view seen from its camera in the direction of x at turn 0.
   std::array<UprightAlternative, pair_turns> at_turn;
 

@@ -17,13 +17,13 @@ constexpr float depthless = 0.25f;            // lightness below which a surface
 constexpr float print_deviation = 0.25f;      // of each axis of printsOf()
 constexpr float outlier_share = 0.05f;        // of prints
 constexpr float largest_common_shift = 0.5f;  // white balance
+constexpr double most_for = 0.4;              // what a patch's print says for a pose at most
 constexpr std::size_t least_prints = 10;
 constexpr std::size_t evidence_points = 250;  // of each view
 
 /// A matched point.
 struct PrintPair {
   Eigen::Vector3f own, seen;
-  std::size_t point;
   bool from_a;
 };
 
@@ -50,8 +50,7 @@ void collect(const CapturedView& from, const CapturedView& into, const Eigen::Is
     const float residual = std::min(farthest_deviation, std::abs(seen.cell->normal().dot(apart)) / depth_deviation);
     sums.matched += 1;
     sums.shape += 0.5 * double(1 - residual * residual);
-    if (printed)
-      prints.push_back({from.prints[from.surface_point[i]], into.prints[into.image.pointOf(seen)], i, from_a});
+    if (printed) prints.push_back({from.prints[from.surface_point[i]], into.prints[into.image.pointOf(seen)], from_a});
   }
 }
 
@@ -71,7 +70,7 @@ Eigen::Vector3f printShift(const std::vector<PrintPair>& prints) {
   return shift;
 }
 
-/// Calls `f(point, from_a, log_likelihood)` for each pair.
+/// Calls `f(log_likelihood)` for each pair.
 template <typename Function>
 void forEachLikelihood(const std::vector<PrintPair>& prints, Function&& f) {
   if (prints.size() < least_prints) return;
@@ -79,7 +78,7 @@ void forEachLikelihood(const std::vector<PrintPair>& prints, Function&& f) {
   for (const PrintPair& pair : prints) {
     const Eigen::Vector3f difference = pair.seen - pair.own - (pair.from_a ? 1.0f : -1.0f) * shift;
     const float same = std::exp(-0.5f * difference.squaredNorm() / (print_deviation * print_deviation));
-    f(pair.point, pair.from_a, double(std::log((1 - outlier_share) * same + outlier_share)));
+    f(double(std::log((1 - outlier_share) * same + outlier_share)));
   }
 }
 
@@ -102,21 +101,7 @@ const std::vector<PrintPair>& matchedPrints(const CapturedView& a, const Capture
 
 }  // namespace
 
-void UsualPrints::add(std::size_t point, double log_likelihood) {
-  if (point >= sums_.size()) {
-    sums_.resize(point + 1, 0);
-    counts_.resize(point + 1, 0);
-  }
-  sums_[point] += float(log_likelihood);
-  counts_[point] += 1;
-}
-
-double UsualPrints::at(std::size_t point) const {
-  return point < sums_.size() && counts_[point] > 0 ? double(sums_[point] / counts_[point]) : 0;
-}
-
-ViewEvidence ViewComparison::at(const Eigen::Isometry3d& T_b_a, const UsualPrints& usual_a,
-                                const UsualPrints& usual_b) const {
+ViewEvidence ViewComparison::at(const Eigen::Isometry3d& T_b_a, const UsualPrints& usual) const {
   Sums sums;
   const std::vector<PrintPair>& prints = matchedPrints(a_, b_, T_b_a, settings_, sums);
   const double stride = double(comparedStride(a_, b_));
@@ -128,17 +113,14 @@ ViewEvidence ViewComparison::at(const Eigen::Isometry3d& T_b_a, const UsualPrint
   evidence.shape = share * sums.shape;
   evidence.against = share * sums.against;
   evidence.overlap = least > 0 ? 0.5 * sums.matched / least : 0;
-  forEachLikelihood(prints, [&](std::size_t point, bool from_a, double likelihood) {
-    evidence.color += share * (likelihood - (from_a ? usual_a : usual_b).at(point));
-  });
+  forEachLikelihood(
+      prints, [&](double likelihood) { evidence.color += share * std::min(most_for, likelihood - usual.mean()); });
   return evidence;
 }
 
-void ViewComparison::learn(const Eigen::Isometry3d& T_b_a, UsualPrints& usual_a, UsualPrints& usual_b) const {
+void ViewComparison::learn(const Eigen::Isometry3d& T_b_a, UsualPrints& usual) const {
   Sums sums;
-  forEachLikelihood(
-      matchedPrints(a_, b_, T_b_a, settings_, sums),
-      [&](std::size_t point, bool from_a, double likelihood) { (from_a ? usual_a : usual_b).add(point, likelihood); });
+  forEachLikelihood(matchedPrints(a_, b_, T_b_a, settings_, sums), [&](double likelihood) { usual.add(likelihood); });
 }
 
 }  // namespace sks

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -22,18 +21,20 @@ struct ViewEvidence {
   double overlap = 0;  ///< part of the smaller view that both saw, in [0, 1]
 };
 
-/// How well the print of each compared point of one view agrees with what the other one shows at its place, on average
-/// over all turns about the vertical. What does not depend on the turn, like rings around a can or the noise of sensor
-/// and light, says nothing of it; nor does a colour that is everywhere.
+/// How well the prints of two views agree where they meet, on average over all turns about the vertical. What does not
+/// depend on the turn, like rings around a can or the noise of sensor and light, says nothing of it.
 class UsualPrints {
 public:
-  /// @param log_likelihood of a point's print in some turn
-  void add(std::size_t point, double log_likelihood);
-  /// 0 where nothing is known of the point.
-  double at(std::size_t point) const;
+  /// @param log_likelihood of a patch in some turn
+  void add(double log_likelihood) {
+    sum_ += log_likelihood;
+    count_ += 1;
+  }
+  /// 0 where nothing is known.
+  double mean() const { return count_ > 0 ? sum_ / count_ : 0; }
 
 private:
-  std::vector<float> sums_, counts_;
+  double sum_ = 0, count_ = 0;
 };
 
 /// Two views that are compared in many poses. Refers to them. Thread-safe, but for learning.
@@ -42,11 +43,11 @@ public:
   ViewComparison(const CapturedView& a, const CapturedView& b, const VerificationSettings& settings)
       : a_(a), b_(b), settings_(settings) {}
 
-  /// Both views are looked for in each other. @param usual of the points of a in b, and of b in a
-  ViewEvidence at(const Eigen::Isometry3d& T_b_a, const UsualPrints& usual_a, const UsualPrints& usual_b) const;
+  /// Both views are looked for in each other.
+  ViewEvidence at(const Eigen::Isometry3d& T_b_a, const UsualPrints& usual) const;
 
   /// Adds what is seen in a pose to what is usual.
-  void learn(const Eigen::Isometry3d& T_b_a, UsualPrints& usual_a, UsualPrints& usual_b) const;
+  void learn(const Eigen::Isometry3d& T_b_a, UsualPrints& usual) const;
 
 private:
   const CapturedView &a_, &b_;

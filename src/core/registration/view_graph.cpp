@@ -73,7 +73,7 @@ std::vector<ViewRelation> relationsAt(const std::vector<CapturedView>& views, co
     const auto [a, b] = pairs[p];
     const Eigen::Isometry3d T_b_a = poses[b]->inverse() * *poses[a];
     const ViewEvidence shared =
-        ViewComparison(views[a], views[b], rules.settings.verification).at(T_b_a, UsualPrints(), UsualPrints());
+        ViewComparison(views[a], views[b], rules.settings.verification).at(T_b_a, UsualPrints());
     if (shared.overlap >= rules.widest.least_overlap) {
       relations[p] = relationAt(views[a], views[b], T_b_a, rules.settings, rules.widest);
     }
