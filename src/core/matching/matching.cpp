@@ -22,14 +22,16 @@ bool searchesExactly(SearchKind search, std::size_t words) {
 }
 
 struct Matcher::Index : NearestWord {
-  Index(SearchedWords words, SearchKind search)
-      : NearestWord(words, searchesExactly(search, words.rows()) ? SearchEffort::exact() : SearchEffort::thorough()) {}
+  using NearestWord::NearestWord;
+
+  static std::unique_ptr<Index> of(SearchedWords words, SearchKind search) {
+    const bool exact = searchesExactly(search, words.rows());
+    return std::make_unique<Index>(std::move(words), exact ? SearchEffort::exact() : SearchEffort::thorough());
+  }
 };
 
-Matcher::Matcher(DescriptorMatrix words, SearchKind search)
-    : index_(std::make_unique<Index>(std::move(words), search)) {}
-Matcher::Matcher(QuantizedDescriptors words, SearchKind search)
-    : index_(std::make_unique<Index>(std::move(words), search)) {}
+Matcher::Matcher(DescriptorMatrix words, SearchKind search) : index_(Index::of(std::move(words), search)) {}
+Matcher::Matcher(QuantizedDescriptors words, SearchKind search) : index_(Index::of(std::move(words), search)) {}
 Matcher::~Matcher() = default;
 Matcher::Matcher(Matcher&&) noexcept = default;
 Matcher& Matcher::operator=(Matcher&&) noexcept = default;
