@@ -22,7 +22,7 @@ bool searchesExactly(SearchKind search, std::size_t words) {
 }
 
 struct Matcher::Index : NearestWord {
-  Index(SearchedWords words, SearchKind search)
+  Index(const SearchedWords& words, SearchKind search)
       : NearestWord(words, searchesExactly(search, words.rows()) ? SearchEffort::exact() : SearchEffort::thorough()) {}
 };
 
