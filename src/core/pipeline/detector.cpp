@@ -57,9 +57,9 @@ std::vector<LargePlane> planesOf(const Surface& surface, const Settings& setting
   return verifiesPoses(settings) ? findLargePlanes(surface, threadCount(settings)) : std::vector<LargePlane>();
 }
 
-/// A thinned cloud is as dense far away as near the sensor.
+/// Where no keypoints are to be left out, none are. A thinned cloud is as dense far away as near the sensor.
 bool thinsByRange(const Settings& settings) {
-  return verifiesPoses(settings) && settings.surface.resolution == 0;
+  return skipsPlanes(settings) && settings.surface.resolution == 0;
 }
 
 /// The keypoints in none of the boxes.
