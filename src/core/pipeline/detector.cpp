@@ -59,7 +59,9 @@ std::vector<LargePlane> planesOf(const Surface& surface, const Settings& setting
 
 /// Where no keypoints are to be left out, none are. A thinned cloud is as dense far away as near the sensor.
 bool thinsByRange(const Settings& settings) {
-  return skipsPlanes(settings) && settings.surface.resolution == 0;
+  const KeypointSettings& keypoints = settings.keypoints;
+  const bool keeps_all = keypoints.selection == SelectionRule::rank && keypoints.discard == 0;
+  return skipsPlanes(settings) && !keeps_all && settings.surface.resolution == 0;
 }
 
 /// The keypoints in none of the boxes.
