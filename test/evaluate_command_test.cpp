@@ -175,7 +175,7 @@ TEST_F(EvaluateCommand, TheSameForAnyNumberOfThreads) {
 
 TEST_F(EvaluateCommand, GridKeepsEveryKeypoint) {
   const json half =
-      evaluated({"--set", "keypoints.discard=0.5", "keypoints.skip_planes=false"})["per_scene"][0]["counts"];
+      evaluated({"--set", "keypoints.discard=0.5", "--set", "keypoints.skip_planes=false"})["per_scene"][0]["counts"];
   const std::size_t grid_keypoints = half["grid_keypoints"];
   EXPECT_EQ(half["keypoints"], grid_keypoints - grid_keypoints / 2);
   const json all = evaluated({"--method", "grid", "--set", "keypoints.discard=0.5"});
