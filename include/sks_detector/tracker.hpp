@@ -25,8 +25,7 @@ struct CloudView {
 /// An object that is followed from cloud to cloud.
 struct TrackedObject {
   std::uint32_t id = 0;  ///< from 1; no other object ever has it
-  /// In the frame of the cloud; evidence and score pool those of the last clouds, and mean what those of a detection
-  /// do.
+  /// In the frame of the cloud. Evidence and score pool those of the last clouds; they mean the same as a detection's.
   Detection detection;
   bool seen = false;  ///< in this cloud; else it is hidden, and the pose is where it should be
   double age = 0;     ///< since it was first seen [s]
@@ -55,9 +54,8 @@ class Tracker {
 public:
   /// @param detector its codebook, settings and models are shared
   /// @param first_id of the first object; of a tracker that replaces another one its nextId()
-  /// @throws Error(bad_usage) where poses are not verified: `detection.hypotheses` is not `verified`, or the verifier
-  /// is
-  ///         the user's own
+  /// @throws Error(bad_usage) where poses are not verified: `detection.hypotheses` is not `verified`, or the user has a
+  ///         verifier of their own
   explicit Tracker(const Detector& detector, std::uint32_t first_id = 1);
   ~Tracker();
   Tracker(Tracker&&) noexcept;

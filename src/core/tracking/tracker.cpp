@@ -21,7 +21,6 @@ constexpr double examination = 0.5;  // [s] between full looks at an object
 constexpr double sure_score = 0.9;   // what is seen with this score need not be searched for
 constexpr double outdone_by = 1.25;  // times the evidence with which a detection takes the place of a track
 constexpr double fastest = 1.0;      // [m/s] that a lost object is moved by a hand
-constexpr double color_doubt = 2;    // as many good objects it takes to tell light from a wrong object
 
 double timeOrNever(bool ever, double stamp) {
   return ever ? stamp : -std::numeric_limits<double>::infinity();

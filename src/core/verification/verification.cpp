@@ -20,7 +20,6 @@ constexpr double largest_claimed = 0.5;  // of the confirming points; else a hyp
 // sight.
 constexpr double plausible_fraction = 0.5, lowest_fraction = 0.3;
 constexpr int most_examined = 4;   // hypotheses of one object at one position, with all they have
-constexpr double color_doubt = 2;  // as many good hypotheses it takes to tell light from a wrong object
 
 /// Votes for the position of the hypothesis whose correspondences fit its pose.
 std::vector<std::uint32_t> inliersOf(const Codebook& codebook, const std::vector<Vote>& votes,
