@@ -19,7 +19,7 @@ constexpr double largest_claimed = 0.5;  // of the confirming points; else a hyp
 // Of the evidence that scores 0.5: what has less is not worth the last rounds, or a search for more than what is in
 // sight.
 constexpr double plausible_fraction = 0.5, lowest_fraction = 0.3;
-constexpr int most_examined = 4;   // hypotheses of one object at one position, with all they have
+constexpr int most_examined = 4;  // hypotheses of one object at one position, with all they have
 
 /// Votes for the position of the hypothesis whose correspondences fit its pose.
 std::vector<std::uint32_t> inliersOf(const Codebook& codebook, const std::vector<Vote>& votes,
