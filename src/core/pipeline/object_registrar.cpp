@@ -25,7 +25,7 @@ constexpr double same_direction = 0.14, same_overlap = 0.8;
 void moveOrigin(RegisteredObject& object, TiedViews& tied, ModelOrigin wanted) {
   if (object.model.box.isEmpty()) return;
   Eigen::Vector3f origin = object.model.box.center();
-  if (wanted == ModelOrigin::first) origin = tied.first_middle.cast<float>();
+  if (wanted == ModelOrigin::first) origin = tied.axes->first_middle.cast<float>();
   if (object.on_plane && wanted != ModelOrigin::center) origin.z() = 0;
   for (auto& pose : tied.T_model_view) {
     if (pose) pose->pretranslate(-origin.cast<double>());
@@ -60,6 +60,41 @@ struct ObjectRegistrar::Views {
     return !view.plane && settings.training.register_views != RegisterViews::on;
   }
 
+  /// All views are on planes, as far as they are compared.
+  bool areUpright() const {
+    return std::all_of(views.begin(), views.end(), [&](const CapturedView& v) { return v.plane || isApart(v); });
+  }
+
+  /// Compares the last view with those before it, in the way that all of them together are tied.
+  void compareLast() {
+    const std::size_t b = views.size() - 1;
+    if (!areUpright()) {
+      for (; related < views.size(); ++related) relate(related);
+    }
+    if (!views[b].plane) return;
+    std::vector<UprightPair> found(b);
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+    for (std::size_t a = 0; a < b; ++a) {
+      if (views[a].plane) found[a] = compareUpright(views, a, b, settings.verification);
+    }
+    for (std::size_t a = 0; a < b; ++a) {
+      if (views[a].plane) pairs.upright.push_back(found[a]);
+    }
+  }
+
+  void relate(std::size_t b) {
+    std::vector<std::vector<ViewRelation>> found(b);
+#pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
+    for (std::size_t a = 0; a < b; ++a) found[a] = relateViews(views[a], views[b], settings, limits);
+    for (std::size_t a = 0; a < b; ++a) {
+      for (ViewRelation& relation : found[a]) {
+        relation.a = a;
+        relation.b = b;
+        pairs.relations.push_back(std::move(relation));
+      }
+    }
+  }
+
   std::string object;
   Settings settings;
   int threads;
@@ -68,7 +103,9 @@ struct ObjectRegistrar::Views {
   std::shared_ptr<const DescriptorStage> descriptors;
   std::vector<CapturedView> views;
   std::vector<std::string> sources;
-  std::vector<ViewRelation> relations;  // in the order of their later view
+  PairwiseKnowledge pairs;  // in the order of their later view
+  std::size_t related = 0;  // of the first views, so many, relations are known
+  EarlierTies earlier;      // of the first views
 };
 
 ObjectRegistrar::ObjectRegistrar(std::string object, const Settings& settings, const Stages& stages) {
@@ -86,30 +123,21 @@ void ObjectRegistrar::add(const TrainingSample& sample) {
     throw Error(error.code(), sample.source + ": " + error.what());
   }
   views_->sources.push_back(sample.source);
-  const std::vector<CapturedView>& views = views_->views;
-  const std::size_t b = views.size() - 1;
-  std::vector<std::vector<ViewRelation>> of_pairs(b);
-#pragma omp parallel for schedule(dynamic, 1) num_threads(views_->threads)
-  for (std::size_t a = 0; a < b; ++a) {
-    if (views_->isApart(views[a]) || views_->isApart(views[b])) continue;
-    of_pairs[a] = relateViews(views[a], views[b], views_->settings, views_->limits);
-  }
-  for (std::size_t a = 0; a < b; ++a) {
-    for (ViewRelation& relation : of_pairs[a]) {
-      relation.a = a;
-      relation.b = b;
-      views_->relations.push_back(std::move(relation));
-    }
-  }
+  views_->compareLast();
 }
 
 void ObjectRegistrar::resize(std::size_t count) {
   if (count >= views_->views.size()) return;
   views_->views.erase(views_->views.begin() + std::ptrdiff_t(count), views_->views.end());
   views_->sources.resize(count);
-  std::vector<ViewRelation>& relations = views_->relations;
-  relations.erase(std::remove_if(relations.begin(), relations.end(), [&](const auto& r) { return r.b >= count; }),
-                  relations.end());
+  const auto forget = [&](auto& pairs) {
+    pairs.erase(std::remove_if(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.b >= count; }),
+                pairs.end());
+  };
+  forget(views_->pairs.upright);
+  forget(views_->pairs.relations);
+  views_->related = std::min(views_->related, count);
+  views_->earlier.resize(std::min(views_->earlier.size(), count + 1));
 }
 
 const std::vector<std::string>& ObjectRegistrar::sources() const {
@@ -119,15 +147,25 @@ const std::vector<std::string>& ObjectRegistrar::sources() const {
 std::optional<std::size_t> ObjectRegistrar::sameAs(std::size_t view) const {
   std::optional<std::size_t> same;
   double most = same_overlap;
-  for (const ViewRelation& relation : views_->relations) {
-    if (relation.b != view || relation.agreement.overlap() < most) continue;
+  const auto consider = [&](std::size_t a, const Eigen::Isometry3d& T_view_a, double overlap) {
+    if (overlap < most) return;
     // Where each camera was, seen from the middle of what both show.
-    const CapturedView &a = views_->views[relation.a], &b = views_->views[relation.b];
-    const Eigen::Vector3d from_a = relation.T_b_a * a.surface.sensor_origin.cast<double>() - b.center;
-    const Eigen::Vector3d from_b = b.surface.sensor_origin.cast<double>() - b.center;
-    if (from_a.normalized().dot(from_b.normalized()) < std::cos(same_direction)) continue;
-    most = relation.agreement.overlap();
-    same = relation.a;
+    const CapturedView &earlier = views_->views[a], &own = views_->views[view];
+    const Eigen::Vector3d from_a = T_view_a * earlier.surface.sensor_origin.cast<double>() - own.center;
+    const Eigen::Vector3d from_own = own.surface.sensor_origin.cast<double>() - own.center;
+    if (from_a.normalized().dot(from_own.normalized()) < std::cos(same_direction)) return;
+    most = overlap;
+    same = a;
+  };
+  for (const ViewRelation& relation : views_->pairs.relations) {
+    if (relation.b == view) consider(relation.a, relation.T_b_a, relation.agreement.overlap());
+  }
+  for (const UprightPair& pair : views_->pairs.upright) {
+    if (pair.b != view) continue;
+    const UprightAlternative& best =
+        *std::max_element(pair.at_turn.begin(), pair.at_turn.end(),
+                          [](const UprightAlternative& x, const UprightAlternative& y) { return x.gain < y.gain; });
+    consider(pair.a, best.T_b_a, best.overlap);
   }
   return same;
 }
@@ -137,10 +175,11 @@ RegisteredObject ObjectRegistrar::result() const {
   RegisteredObject object;
   object.object = views_->object;
   object.frame = views_->object + "#model";
-  TiedViews tied = tieViews(views, views_->relations, views_->settings, views_->limits, LoopLimits(), views_->threads);
+  TiedViews tied = tieViews(views, views_->pairs, views_->settings, views_->limits, LoopLimits(), views_->threads,
+                            views_->earlier);
   object.loops = tied.loops;
   object.symmetry = tied.symmetry;
-  object.on_plane = tied.first && views[*tied.first].plane;
+  object.on_plane = tied.axes && views[tied.axes->first].plane;
   object.model = fuseViews(views, tied.T_model_view, views_->settings);
   moveOrigin(object, tied, views_->settings.training.origin);
   for (std::size_t v = 0; v < views.size(); ++v) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/registration/view_print.hpp"
+
 namespace sks {
 namespace {
 
@@ -21,6 +23,7 @@ CapturedView::CapturedView(Surface all, const Keypoints& detected, const Descrip
       image(surface, float(settings.surface.normal_radius)),
       silhouette(image),
       plane(std::move(support)) {
+  prints = printsOf(surface);
   for (std::size_t row = 0; row < described.keypoints.size(); ++row) {
     keypoints.push_back(detected.positions[described.keypoints[row]]);
     frames.push_back(described.frames[row]);
@@ -39,6 +42,7 @@ CapturedView::CapturedView(Surface all, const Keypoints& detected, const Descrip
   radius = std::sqrt(squares / double(std::max<std::size_t>(1, positions.size())));
   points = PointGrid(positions, row_edge);
   for (const std::uint32_t i : points.source) {
+    surface_point.push_back(sources[i]);
     normals.push_back(surface.normal(sources[i]));
     if (surface.hasColor()) colors.push_back(surface.colorAt(sources[i]));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,6 +37,8 @@ struct CapturedView {
   PointGrid points;    ///< of these about one for each cube of `spacing`; all have normals
   float spacing = 0;
   std::vector<Eigen::Vector3f> normals, colors;  ///< of `points`, in their order; colours as in Surface or none
+  std::vector<std::uint32_t> surface_point;      ///< of `points`: which they are of `surface`
+  std::vector<Eigen::Vector3f> prints;           ///< of `surface`, see printsOf(); none without colour
   std::vector<Eigen::Vector3f> keypoints;        ///< of the descriptors
   std::vector<Eigen::Matrix3f> frames;
   DescriptorMatrix descriptors;

@@ -14,25 +14,11 @@ constexpr double majority = 2;  // weight of the relations that agree on a pose 
 
 }  // namespace
 
-Eigen::Isometry3d poseOfItsOwn(const CapturedView& view) {
-  if (!view.plane) return Eigen::Isometry3d::Identity();
-  const Eigen::Vector3d up = view.plane->normal(), foot = view.plane->projection(view.center);
-  const Eigen::Vector3d to_camera = view.surface.sensor_origin.cast<double>() - foot;
-  Eigen::Vector3d x = to_camera - up.dot(to_camera) * up;
-  if (x.norm() < 1e-6) x = up.unitOrthogonal();
-  x.normalize();
-  Eigen::Isometry3d T_view_model = Eigen::Isometry3d::Identity();
-  T_view_model.linear() << x, up.cross(x), up;
-  T_view_model.translation() = foot;
-  return T_view_model.inverse();
-}
-
 void ViewCluster::begin(const ViewLoop& loop) {
-  first_ = std::min({loop.i, loop.j, loop.k});
   poses_[loop.i] = Eigen::Isometry3d::Identity();
   poses_[loop.j] = table_.pose(loop.ij, loop.i).inverse();
   poses_[loop.k] = table_.pose(loop.ik, loop.i).inverse();
-  toFrameOf(first_);
+  toFrameOf(std::min({loop.i, loop.j, loop.k}));
   optimize();
 }
 
@@ -40,7 +26,7 @@ void ViewCluster::grow() {
   for (std::size_t step = 0; step < poses_.size(); ++step) {  // each adds a view
     std::vector<PoseProposal> proposals;
     for (std::size_t view = 0; view < poses_.size(); ++view) {
-      if (!poses_[view] && !foreign_[view] && !other_turns_[view]) propose(view, proposals);
+      if (!poses_[view] && !foreign_[view]) propose(view, proposals);
     }
     std::stable_sort(proposals.begin(), proposals.end(), [](const PoseProposal& a, const PoseProposal& b) {
       return std::make_pair(a.edges >= fewest_edges, a.weight) > std::make_pair(b.edges >= fewest_edges, b.weight);
@@ -66,26 +52,6 @@ void ViewCluster::complete() {
     dropLoose();
     dropForeign();
     dropLoose();
-  }
-}
-
-/// Of the direction from what a view shows to its camera, in the plane z = 0 [rad].
-double ViewCluster::headingOf(std::size_t view, const Eigen::Isometry3d& T_model_view) const {
-  const CapturedView& seen = table_.views()[view];
-  const Eigen::Vector3d direction = T_model_view.linear() * (seen.surface.sensor_origin.cast<double>() - seen.center);
-  return std::atan2(direction.y(), direction.x());
-}
-
-void ViewCluster::orient(std::size_t by, const std::optional<Eigen::Isometry3d>& T_model_view) {
-  first_ = by;
-  const Eigen::Isometry3d T_old_view = *poses_[by];
-  Eigen::Isometry3d T_new_old = T_model_view.value_or(Eigen::Isometry3d::Identity()) * T_old_view.inverse();
-  if (table_.views()[by].plane) {  // z stays
-    const double heading = T_model_view ? headingOf(by, *T_model_view) : 0;
-    T_new_old = Eigen::AngleAxisd(heading - headingOf(by, T_old_view), Eigen::Vector3d::UnitZ());
-  }
-  for (auto& pose : poses_) {
-    if (pose) pose = T_new_old * *pose;
   }
 }
 
@@ -181,7 +147,7 @@ void ViewCluster::solve(const std::vector<PoseEdge>& edges) {
     edge.a = node_of[edge.a];
     edge.b = node_of[edge.b];
   }
-  const std::vector<Eigen::Isometry3d> solved = optimizedPoses(nodes, among_nodes, node_of[firstTied()]);
+  const std::vector<Eigen::Isometry3d> solved = optimizedPoses(nodes, among_nodes, node_of[view_of.front()]);
   for (std::size_t k = 0; k < solved.size(); ++k) poses_[view_of[k]] = solved[k];
 }
 

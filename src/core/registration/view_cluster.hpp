@@ -14,6 +14,7 @@
 
 #include "core/registration/pose_graph.hpp"
 #include "core/registration/relation_table.hpp"
+#include "core/registration/upright_pair.hpp"
 #include "core/registration/view_placement.hpp"
 
 namespace sks {
@@ -29,10 +30,6 @@ struct PoseProposal {
   std::size_t edges = 0;  // how many
 };
 
-/// The pose of a view before anything is known of others: where its plane is known, z is the plane's normal, x points
-/// to the camera and the origin lies on the plane below the middle of what it shows; else that of its camera.
-Eigen::Isometry3d poseOfItsOwn(const CapturedView& view);
-
 /// Views that are tied to each other, beginning with one loop of three (docs/method.md, section 16). Refers to all that
 /// it is made of. Deterministic for any number of threads.
 class ViewCluster {
@@ -45,8 +42,7 @@ public:
         loops_(loops),
         threads_(threads),
         poses_(table.views().size()),
-        foreign_(table.views().size(), 0),
-        other_turns_(table.views().size()) {}
+        foreign_(table.views().size(), 0) {}
 
   /// Ties the three views of a loop.
   void begin(const ViewLoop& loop);
@@ -61,28 +57,26 @@ public:
   /// Aligns all pairs anew from the common poses, drops what does not fit, and optimises again.
   void complete();
 
-  /// Lets views go that fit the others as well at another turn about the normal of the plane, all planes being known.
-  void dropAmbiguous();
+  /// Takes views on known planes that were put together otherwise, and optimises their poses by the relations.
+  /// @param slack by how many times the usual limits poses may be off
+  void adopt(const ViewPoses& poses, double slack);
 
-  /// Moves the model so that a view, which must be tied, gets a pose: where its plane is known, the turn of that about
-  /// z. Without a pose: x points to where the view was taken from, or else the model has the frame of the view.
-  void orient(std::size_t by, const std::optional<Eigen::Isometry3d>& T_model_view = std::nullopt);
+  /// Drops views that contradict others, and those that show something else besides.
+  /// @return of each view that contradicts: the one that it contradicts most; else -1
+  std::vector<std::ptrdiff_t> dropContradicted();
+
+  /// Drops views that share too little with the others to be confirmed by two of them.
+  void dropUnshared();
+
+  void letGo(std::size_t view) { poses_[view].reset(); }
 
   std::size_t size() const {
     return std::size_t(std::count_if(poses_.begin(), poses_.end(), [](const auto& pose) { return bool(pose); }));
   }
   double weight() const { return weight_; }
-  std::size_t first() const { return first_; }
-  const std::vector<std::optional<Eigen::Isometry3d>>& poses() const { return poses_; }
-  /// Of a cluster that is not empty.
-  std::size_t firstTied() const {
-    return std::size_t(std::find_if(poses_.begin(), poses_.end(), [](const auto& p) { return bool(p); }) -
-                       poses_.begin());
-  }
+  const ViewPoses& poses() const { return poses_; }
   bool isTied(std::size_t view) const { return bool(poses_[view]); }
   bool isForeign(std::size_t view) const { return foreign_[view] != 0; }
-  /// By how much a view that was let go could be turned and fit as well [rad]; none: it was not let go for that.
-  const std::optional<double>& otherTurn(std::size_t view) const { return other_turns_[view]; }
   bool holds(const ViewLoop& loop) const { return poses_[loop.i] && poses_[loop.j] && poses_[loop.k]; }
 
   LoopErrors loopErrors() const;
@@ -95,7 +89,6 @@ public:
 
 private:
   std::size_t confirmations(const PoseProposal& p) const;
-  double headingOf(std::size_t view, const Eigen::Isometry3d& T_model_view) const;
   void toFrameOf(std::size_t view);
   std::vector<PoseEdge> agreeingEdges() const;
   void optimize() { solve(agreeingEdges()); }
@@ -111,20 +104,17 @@ private:
   void dropLoose();
   void dropForeign();
   double foreignShare(std::size_t view) const;
-  std::optional<double> findOtherTurn(std::size_t view) const;
 
   const RelationTable& table_;
   const Settings& settings_;
   const PairLimits& limits_;
   const LoopLimits& loops_;
   int threads_;
-  std::vector<std::optional<Eigen::Isometry3d>> poses_;
+  ViewPoses poses_;
   std::vector<PoseEdge> edges_;  // after complete()
   std::vector<double> scores_;   // of the edges
   std::vector<char> foreign_;    // of each view: dropped for what it shows besides
-  std::vector<std::optional<double>> other_turns_;
   double weight_ = 0;
-  std::size_t first_ = 0;
 };
 
 }  // namespace sks

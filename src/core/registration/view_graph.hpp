@@ -6,35 +6,43 @@
 #include <string>
 #include <vector>
 
-#include <Eigen/Geometry>
-
 #include <sks_detector/registration.hpp>
 #include <sks_detector/settings.hpp>
 
+#include "core/registration/model_axes.hpp"
 #include "core/registration/relation_table.hpp"
+#include "core/registration/upright_pair.hpp"
 #include "core/registration/view_relation.hpp"
 
 namespace sks {
 
 /// The views of one object that were tied to each other.
 struct TiedViews {
-  std::vector<std::optional<Eigen::Isometry3d>> T_model_view;  ///< of each view; none: it could not be tied
+  ViewPoses T_model_view;            ///< of each view; none: it could not be tied
   std::vector<std::string> reasons;  ///< why not, in words, other views by their `source`; empty for tied ones
-  std::optional<std::size_t> first;  ///< a tied view that the frame was taken from; none: nothing was tied
-  /// The middle of the box of what that view shows, as it was when the frame began: views that are added later, even
-  /// if they leave that view out, do not move it. Model frame [m].
-  Eigen::Vector3d first_middle = Eigen::Vector3d::Zero();
+  std::optional<ModelAxes> axes;     ///< none: nothing was tied
   LoopErrors loops;
   std::optional<Symmetry> symmetry;  ///< under which all views look the same: no turn under it is wrong
 };
 
-/// Ties views by their relative poses. A relative pose is believed only together with others that close a loop with it,
-/// and only while what the cameras saw of the whole agrees; the poses of all are then optimised together. Where planes
-/// are known, they lie in z = 0 of the model and its x axis points to where the first view was taken from; else the
-/// model frame is that of the first view. The first view is that of registerViews(). Deterministic for any number of
-/// threads.
-/// @param relations of relateViews() of all pairs
-TiedViews tieViews(const std::vector<CapturedView>& views, const std::vector<ViewRelation>& relations,
-                   const Settings& settings, const PairLimits& limits, const LoopLimits& loops, int threads);
+/// What is known of the views of an object, two by two.
+struct PairwiseKnowledge {
+  std::vector<ViewRelation> relations;  ///< of relateViews(), of all pairs, unless all views are on known planes
+  std::vector<UprightPair> upright;     ///< of compareUpright(), of all pairs of views on known planes
+};
+
+/// Of the first views, so many as its index: how they were tied when there were no others. It saves what was found
+/// when the same views are tied again with others after them.
+using EarlierTies = std::vector<std::optional<ViewPoses>>;
+
+/// Ties views on known planes by putting all of them together at once (assembledUpright()); those whose turn stays open
+/// are let go. Ties others by their relative poses. A relative pose is believed only together with others that close a
+/// loop with it, and only while what the cameras saw of the whole agrees; the poses of all are then optimised together.
+/// Where planes are known, they lie in z = 0 of the model and its x axis points to where the first view was taken from;
+/// else the model frame is that of the first view. The first view is that of orientModel(). Deterministic for any
+/// number of threads.
+/// @param earlier of the same views; what is found is added
+TiedViews tieViews(const std::vector<CapturedView>& views, const PairwiseKnowledge& pairs, const Settings& settings,
+                   const PairLimits& limits, const LoopLimits& loops, int threads, EarlierTies& earlier);
 
 }  // namespace sks

@@ -28,13 +28,4 @@ struct ViewPlacement {
 ViewPlacement placedAt(const std::vector<CapturedView>& views, const ViewPoses& poses, std::size_t view,
                        const Eigen::Isometry3d& T_model_view, const Settings& settings, const PairLimits& limits);
 
-/// Where a view could stand in a model whose z is the normal of the supporting plane, and which it is part of: turned
-/// about the middle of the model's box, aligned with all other views, and shifted to where they contradict least. Those
-/// poses that nothing speaks against by more than a limit, the best supported first. Deterministic; thread-safe.
-/// @param T_model_view its own pose in the model
-/// @param most_against limit of ViewPlacement::against
-std::vector<ViewPlacement> uprightPlacements(const std::vector<CapturedView>& views, const ViewPoses& poses,
-                                             std::size_t view, const Eigen::Isometry3d& T_model_view,
-                                             const Settings& settings, const PairLimits& limits, double most_against);
-
 }  // namespace sks

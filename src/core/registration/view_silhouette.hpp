@@ -22,7 +22,13 @@ public:
   /// the object, as far as it is narrower than twice the margin, is no outside.
   bool isOutside(const Eigen::Vector3f& position, float margin) const;
 
+  /// The way [m], across the direction of view, by which a position has to move to appear where something was measured;
+  /// zero where it does.
+  Eigen::Vector3f wayInside(const Eigen::Vector3f& position) const;
+
 private:
+  float distanceAt(float column, float row) const;
+
   RangeImage::Projection projection_;
   int width_ = 0, height_ = 0;           // in cells, with a frame of `widest` cells around the image
   std::vector<std::uint8_t> distances_;  // to the nearest measured cell [cells]
