@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <iterator>
 #include <limits>
-#include <set>
+#include <map>
 #include <utility>
 
 namespace sks {
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t other_turns = 36;    // 10 degrees apart, and half a step to each side
 constexpr double refuting = 80;            // least loss of a group that is turned wrongly
-constexpr double refuting_pairs = 2;       // as many as must lose at least
+constexpr double refuting_pairs = 2;       // as many have to tell it
 constexpr double least_gain_of_move = 5;   // of moving views to where they fit better
 constexpr double other_turn_limit = 0.14;  // [rad] 8 degrees: nearer ones are the same turn
 constexpr double least_turn = 0.03;        // [rad] of a move
@@ -22,6 +22,7 @@ constexpr double clearly_refuted = 4;      // times the least loss: of what is l
 constexpr UprightRounds whole_rounds{2, 6, 0.025, 0.008, 50, false};  // of the whole model on itself
 constexpr UprightRounds group_rounds{2, 6, 0.025, 0.008, 80, false};  // of a group on the rest
 constexpr double worth_aligning = 1000;                               // loss of a group before it is aligned
+constexpr std::size_t most_groups = 8;  // of a turn that are aligned: those that lose least
 constexpr int highest_order = 8;
 
 using Group = std::vector<std::size_t>;
@@ -65,18 +66,22 @@ public:
     const Eigen::Isometry3d start = Eigen::Translation3d(middle_) * turned * Eigen::Translation3d(-middle_);
     const Eigen::Isometry3d whole = alignedMotion(views_, poses_, tied_, tied_, start, whole_rounds);
     Result result;
-    std::set<Group> groups;
+    std::map<Group, double> grown;  // and what they lose
     const std::vector<double> losses = lossesBy(whole);
     result.all_fit = std::abs(turnOf(whole)) > other_turn_limit;
     for (const std::size_t v : tied_) {
       double loss = 0;
       for (const std::size_t t : tied_) loss += losses[v * views_.size() + t];
       result.all_fit = result.all_fit && loss <= refuting;
-      if (const Group group = grownFrom(v, losses); !group.empty()) groups.insert(group);
+      auto [group, group_loss] = grownFrom(v, losses);
+      if (!group.empty() && leastLoss(group, turn) < clearly_refuted * refuting)
+        grown.emplace(std::move(group), group_loss);
     }
-    for (const Group& group : groups) {
-      if (leastLoss(group, turn) < clearly_refuted * refuting) consider(group, whole, result);
-    }
+    std::vector<std::pair<double, const Group*>> groups;
+    for (const auto& [group, group_loss] : grown) groups.emplace_back(group_loss, &group);
+    std::stable_sort(groups.begin(), groups.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    groups.resize(std::min(groups.size(), most_groups));
+    for (const auto& [group_loss, group] : groups) consider(*group, whole, result);
     // alone, a view may fit where the whole does not
     for (const std::size_t v : tied_) {
       if (leastLoss({v}, turn) < clearly_refuted * refuting) consider({v}, start, result);
@@ -122,7 +127,7 @@ private:
 
   /// The group that loses least of those that grow from a view by one that loses least after the other, up to half of
   /// all: the rest, turned back, loses the same. Empty if none is worth a look.
-  Group grownFrom(std::size_t first, const std::vector<double>& losses) const {
+  std::pair<Group, double> grownFrom(std::size_t first, const std::vector<double>& losses) const {
     std::vector<char> in(views_.size(), 0);
     Group members, best;
     double loss = 0, least_loss = worth_aligning;
@@ -150,7 +155,7 @@ private:
       }
     }
     std::sort(best.begin(), best.end());
-    return best;
+    return {best, least_loss};
   }
 
   /// Aligned with the rest.
@@ -163,7 +168,9 @@ private:
       for (const std::size_t t : rest) {
         const double loss = lossOf(v, t, other.motion);
         other.loss += loss;
+        other.largest = std::max(other.largest, loss);
         other.squares += loss * loss;
+        ++other.pairs;
       }
     }
     // what is not refuted counts first
@@ -190,7 +197,8 @@ bool OtherTurn::isOther() const {
 }
 
 bool OtherTurn::isRefuted() const {
-  return loss > refuting && loss * loss >= refuting_pairs * squares;
+  const double alike = refuting_pairs * double(pairs - 1) / double(pairs);
+  return loss > refuting && loss - largest > refuting / refuting_pairs && loss * loss >= alike * squares;
 }
 
 const OtherTurn* TurnAmbiguity::best() const {

@@ -19,14 +19,16 @@ namespace sks {
 struct OtherTurn {
   std::vector<std::size_t> views;                            ///< in ascending order; at most half of all
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  ///< of their poses
-  double loss = 0;     ///< of what all pairs say for the poses, if they are moved [log-likelihood ratio]
-  double squares = 0;  ///< sum of the squares of what each pair loses
+  double loss = 0;        ///< of what all pairs say for the poses, if they are moved [log-likelihood ratio]
+  double largest = 0;     ///< what the pair loses that loses most
+  double squares = 0;     ///< sum of the squares of what each pair loses
+  std::size_t pairs = 0;  ///< of a view that is moved and one that stays
 
   double angle() const { return turnOf(motion); }
   /// Whether the views would not be nearly as they are.
   bool isOther() const;
-  /// Whether what the cameras saw speaks against it: clearly, and more than a single pair of views does. For k pairs
-  /// that lose alike, loss * loss / squares is k.
+  /// Whether what the cameras saw speaks against it: clearly, and not by what a single pair of views tells: for
+  /// k pairs that lose alike, loss * loss / squares is k.
   bool isRefuted() const;
 };
 

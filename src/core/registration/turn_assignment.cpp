@@ -115,46 +115,41 @@ private:
 
   bool turnGroup(std::size_t first, std::size_t by) {
     std::vector<char> group(count_, 0), best_group;
+    // of each view: what is gained if it follows the group
+    std::vector<double> changes(count_, 0);
+    for (std::size_t v = 0; v < count_; ++v) {
+      for (std::size_t w = 0; w < count_; ++w) {
+        if (w != v) changes[v] += gain(v, turned(v, by), w, turn_[w]) - gain(v, turn_[v], w, turn_[w]);
+      }
+    }
     double sum = 0, best = least_turn_gain;
     std::size_t next = first;
     for (std::size_t size = 1; size < count_; ++size) {
-      sum += changeBy(next, by, group);
+      sum += changes[next];
       group[next] = 1;
       if (sum > best) {
         best = sum;
         best_group = group;
       }
+      const std::size_t added = next;
       double most = -std::numeric_limits<double>::infinity();
       for (std::size_t v = 0; v < count_; ++v) {
         if (group[v]) continue;
-        const double change = changeBy(v, by, group);
-        if (change <= most) continue;
-        most = change;
+        changes[v] += gain(v, turned(v, by), added, turned(added, by)) - gain(v, turn_[v], added, turned(added, by)) -
+                      gain(v, turned(v, by), added, turn_[added]) + gain(v, turn_[v], added, turn_[added]);
+        if (changes[v] <= most) continue;
+        most = changes[v];
         next = v;
       }
     }
     if (best_group.empty()) return false;
     for (std::size_t v = 0; v < count_; ++v) {
-      if (best_group[v]) turn_[v] = (turn_[v] + by) % pair_turns;
+      if (best_group[v]) turn_[v] = turned(v, by);
     }
     return true;
   }
 
-  /// What is gained if a view follows a group that was turned.
-  double changeBy(std::size_t v, std::size_t by, const std::vector<char>& group) const {
-    double change = 0;
-    const std::size_t turned = (turn_[v] + by) % pair_turns;
-    for (std::size_t w = 0; w < count_; ++w) {
-      if (w == v) continue;
-      if (group[w]) {
-        const std::size_t with = (turn_[w] + by) % pair_turns;
-        change += gain(v, turned, w, with) - gain(v, turn_[v], w, with);
-      } else {
-        change += gain(v, turned, w, turn_[w]) - gain(v, turn_[v], w, turn_[w]);
-      }
-    }
-    return change;
-  }
+  std::size_t turned(std::size_t v, std::size_t by) const { return (turn_[v] + by) % pair_turns; }
 
   std::size_t count_;
   std::vector<const UprightPair*> table_;
