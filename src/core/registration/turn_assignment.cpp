@@ -3,14 +3,15 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace sks {
 namespace {
 
-constexpr std::size_t most_starts = 60;  // pairs from which views are assigned
-constexpr std::size_t other_turn = 6;    // steps from which on a turn is another one
-constexpr int most_rounds = 20;          // of turning views and groups
-constexpr double least_turn_gain = 1e-6;
+constexpr std::size_t most_starts = 60;   // pairs from which views are assigned
+constexpr std::size_t other_turn = 6;     // steps from which on a turn is another one
+constexpr int most_rounds = 20;           // of turning views and groups
+constexpr double least_turn_gain = 1e-6;  // of a move
 
 std::size_t difference(std::size_t turn, std::size_t from) {
   return (turn + pair_turns - from) % pair_turns;
@@ -157,9 +158,17 @@ private:
   std::vector<char> placed_;
 };
 
+/// Whether no pair would be turned otherwise.
+bool areNearlySame(const ViewTurns& x, const ViewTurns& y, const std::vector<UprightPair>& pairs) {
+  return std::all_of(pairs.begin(), pairs.end(), [&](const UprightPair& pair) {
+    const std::size_t apart = difference(difference(x[pair.a], x[pair.b]), difference(y[pair.a], y[pair.b]));
+    return std::min(apart, pair_turns - apart) < other_turn;
+  });
+}
+
 }  // namespace
 
-std::vector<std::size_t> assignedTurns(std::size_t views, const std::vector<UprightPair>& pairs) {
+std::vector<ViewTurns> assignedTurns(std::size_t views, const std::vector<UprightPair>& pairs, std::size_t most) {
   Assignment assignment(views, pairs);
   std::vector<std::size_t> order(pairs.size());
   std::vector<double> gains;
@@ -171,16 +180,23 @@ std::vector<std::size_t> assignedTurns(std::size_t views, const std::vector<Upri
   }
   std::stable_sort(order.begin(), order.end(), [&](std::size_t p, std::size_t q) { return gains[p] > gains[q]; });
   order.resize(std::min(order.size(), most_starts));
-  std::vector<std::size_t> best(views, 0);
-  double most = -std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, ViewTurns>> found;
   for (const std::size_t p : order) {
     assignment.start(pairs[p]);
     assignment.grow();
     assignment.improve();
-    if (assignment.total() <= most + least_turn_gain) continue;
-    most = assignment.total();
-    best = assignment.turns();
+    found.emplace_back(assignment.total(), assignment.turns());
   }
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<ViewTurns> best;
+  for (auto& [total, turns] : found) {
+    if (best.size() >= most) break;
+    if (std::none_of(best.begin(), best.end(), [&, &candidate = turns](const ViewTurns& other) {
+          return areNearlySame(candidate, other, pairs);
+        }))
+      best.push_back(std::move(turns));
+  }
+  if (best.empty()) best.emplace_back(views, 0);
   return best;
 }
 

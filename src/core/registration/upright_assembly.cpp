@@ -2,7 +2,9 @@
 #include "core/registration/upright_assembly.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <optional>
 
 #include "core/registration/turn_assignment.hpp"
 
@@ -11,6 +13,8 @@ namespace {
 
 // From sweep to sweep views are turned by less [rad], to find what prints tell beyond the shape.
 constexpr double turn_steps[] = {0.105, 0.052, 0.026, 0.013, 0.013};
+constexpr std::size_t first_sweeps = 2;      // before the best assignment is chosen
+constexpr std::size_t most_assignments = 6;  // of turns, that are looked at
 constexpr double least_move_gain = 0.5;
 constexpr UprightRounds moving_rounds{0, 4, 0.012, 0.006, 150, false};
 
@@ -21,22 +25,29 @@ public:
       : views_(views), pairs_(pairs), settings_(settings), poses_(views.size()) {}
 
   ViewPoses assembled() {
-    place(assignedTurns(views_.size(), pairs_));
-    for (const double step : turn_steps) {
-      for (std::size_t v = 0; v < views_.size(); ++v) {
-        if (poses_[v]) move(v, step);
-      }
+    ViewPoses best;
+    double most = -std::numeric_limits<double>::infinity();
+    for (const ViewTurns& turns : assignedTurns(views_.size(), pairs_, most_assignments)) {
+      poses_.assign(views_.size(), std::nullopt);
+      place(turns);
+      for (std::size_t sweep = 0; sweep < first_sweeps; ++sweep) moveAll(turn_steps[sweep]);
+      const double gain = total();
+      if (gain <= most) continue;
+      most = gain;
+      best = poses_;
     }
+    poses_ = best;
+    for (std::size_t sweep = first_sweeps; sweep < std::size(turn_steps); ++sweep) moveAll(turn_steps[sweep]);
     return poses_;
   }
 
 private:
-  const UprightAlternative& at(const UprightPair& pair, const std::vector<std::size_t>& turns) const {
+  const UprightAlternative& at(const UprightPair& pair, const ViewTurns& turns) const {
     return pair.at_turn[(turns[pair.a] + pair_turns - turns[pair.b]) % pair_turns];
   }
 
   /// Along the pairs that say most.
-  void place(const std::vector<std::size_t>& turns) {
+  void place(const ViewTurns& turns) {
     std::size_t first = 0;
     for (std::size_t p = 1; p < pairs_.size(); ++p) {
       if (at(pairs_[p], turns).gain > at(pairs_[first], turns).gain) first = p;
@@ -56,6 +67,19 @@ private:
         poses_[best->b] = *poses_[best->a] * T_b_a.inverse();
       }
     }
+  }
+
+  void moveAll(double step) {
+    for (std::size_t v = 0; v < views_.size(); ++v) {
+      if (poses_[v]) move(v, step);
+    }
+  }
+
+  double total() const {
+    double sum = 0;
+    for (const UprightPair& pair : pairs_)
+      sum += pair.gainAt(views_, poses_[pair.b]->inverse() * *poses_[pair.a], settings_);
+    return sum;
   }
 
   double gainOf(std::size_t view, const Eigen::Isometry3d& T_model_view) const {
