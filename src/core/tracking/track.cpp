@@ -52,6 +52,8 @@ void Track::update(const FollowedObject& followed, Look look, const Eigen::Isome
   if (look == Look::full) {
     if (!partly_hidden || evidence > pooled) pool(evidence, stamp - examined_at_);
     examined_at_ = stamp;
+    examined_ = true;
+    if (seen_) color_shift_ = followed.color_shift;
   }
   remember(stamp);
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -35,6 +36,9 @@ public:
   double seenAt() const { return seen_at_; }     ///< [s]
   /// By a full look, or the detection that it began with [s].
   double examinedAt() const { return examined_at_; }
+  bool examined() const { return examined_; }  ///< by a full look since it began
+  /// FollowedObject::color_shift of the last full look.
+  const std::optional<Eigen::Vector3f>& colorShift() const { return color_shift_; }
 
   /// What a new cloud shows. @param T_reference_cloud of that cloud
   void update(const FollowedObject& followed, Look look, const Eigen::Isometry3d& T_reference_cloud, double stamp,
@@ -63,6 +67,8 @@ private:
   bool seen_ = true, hidden_ = false, confirmed_ = false;
   double begun_, seen_at_;
   double examined_at_;
+  bool examined_ = false;
+  std::optional<Eigen::Vector3f> color_shift_;
 };
 
 }  // namespace sks

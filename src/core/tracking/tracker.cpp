@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include <sks_detector/error.hpp>
@@ -85,12 +86,14 @@ void Tracker::State::enter(const CloudView& view) {
   followed = true;
 }
 
-/// A full look at the object that waits longest for it, if one does: more of them in one cloud would hold it up.
+/// A full look at the object that waits longest for it, if one does: more of them in one cloud would hold it up. One
+/// that never had any comes first.
 std::vector<Look> Tracker::State::looks(double now) const {
   std::vector<Look> looks(tracks.size(), Look::quick);
-  const auto longest = std::min_element(tracks.begin(), tracks.end(),
-                                        [](const Track& a, const Track& b) { return a.examinedAt() < b.examinedAt(); });
-  if (longest != tracks.end() && now - longest->examinedAt() >= examination) {
+  const auto longest = std::min_element(tracks.begin(), tracks.end(), [](const Track& a, const Track& b) {
+    return std::make_tuple(a.examined(), a.examinedAt()) < std::make_tuple(b.examined(), b.examinedAt());
+  });
+  if (longest != tracks.end() && (!longest->examined() || now - longest->examinedAt() >= examination)) {
     looks[std::size_t(longest - tracks.begin())] = Look::full;
   }
   return looks;
@@ -232,8 +235,8 @@ std::vector<TrackedObject> Tracker::follow(const Cloud& cloud, const CloudView& 
     const double range = (place - cloud.sensor_origin.cast<double>()).norm();
     s.tracks[i].update(found[i], looks[i], s.T_reference_cloud, view.stamp, range);
     Examined examined;
-    examined.hypothesis = found[i].hypothesis;
-    examined.lines.color_shift = found[i].color_shift;
+    examined.hypothesis = s.tracks[i].hypothesis();
+    examined.lines.color_shift = s.tracks[i].colorShift();
     colors.push_back(std::move(examined));
   }
   if (!colors.empty()) {
