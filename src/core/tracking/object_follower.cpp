@@ -9,6 +9,7 @@
 #include "core/pipeline/scene_description.hpp"
 #include "core/tracking/object_crop.hpp"
 #include "core/verification/projective_refinement.hpp"
+#include "core/verification/refinement.hpp"
 #include "core/verification/standing_things.hpp"
 #include "core/verification/surface_sample.hpp"
 
@@ -20,8 +21,8 @@ constexpr double quick_points = 3;          // spacings of the points of a quick
 constexpr float flat_object = 0.03f;        // [m] what is thinner may lie within the tolerance of the plane below it
 constexpr double fewest_in_crop = 50;       // of a crop: else nothing can be said
 constexpr std::size_t glance_points = 500;  // of a view, by which a quick look tells whether the object is there
-constexpr std::size_t fine_points = 8;      // times as many points, of all sides, fit the pose in the last rounds
-constexpr int last_rounds = 6;              // of ICP
+constexpr int fine_points = 8;              // times as many points, of all sides, fit the pose in the last rounds
+constexpr int last_rounds = 3;              // of ICP
 
 Settings oneThread(Settings settings) {
   settings.threads = 1;
@@ -83,7 +84,7 @@ FollowedObject ObjectFollower::follow(const Cloud& cloud, const Hypothesis& expe
   } else {
     const TrainingView& nearest = codebook.views[best.hypothesis.view];
     pose = examinePose(nearest, models_->weights.at(best.hypothesis.view, strideFor(nearest, glance_points)), scene,
-                       settings_, best.hypothesis.T_scene_model, glance_points, CorrespondenceSearch::along_ray);
+                       settings_, best.hypothesis.T_scene_model, glance_points, CorrespondenceSearch::nearby);
   }
   if (pose.facing > 0) followed.hidden = pose.occluded / pose.facing;
   if (pose.weighted_visible > 0) followed.confirmed = pose.weighted_supported / pose.weighted_visible;
@@ -95,22 +96,22 @@ FollowedObject ObjectFollower::follow(const Cloud& cloud, const Hypothesis& expe
 
 Eigen::Isometry3d ObjectFollower::fitted(const Hypothesis& expected, const SceneView& scene,
                                          const Eigen::Isometry3d& start) const {
-  thread_local SurfaceSample few, many;  // keep their buffers from cloud to cloud
+  thread_local SurfaceSample few;  // keeps its buffers from cloud to cloud
   const TrainingView& view = models_->codebook->views[expected.view];
   const ModelSurface& surface = *models_->surfaces[expected.view];
-  const RefinementSettings& coarse = settings_.refinement;
-  RefinementSettings fine = coarse;
-  fine.start_distance = fine.end_distance;
-  const std::size_t stride = strideFor(view, std::size_t(coarse.max_points));
+  const RefinementSettings& rough = settings_.refinement;
+  const std::size_t stride = strideFor(view, std::size_t(rough.max_points));
   few.take(view, stride);
-  many.take(surface.points, surface.normals,
-            surface.points.size() / (fine_points * std::size_t(coarse.max_points)) + 1);
   const double resolution = settings_.training.surface_resolution;
-  const double noise =
-      depthNoise((start * view.center().cast<double>() - scene.surface.sensor_origin.cast<double>()).norm());
-  const MotionPrior prior(few, double(stride) * resolution * resolution, scene, coarse.start_distance, noise, start);
-  const Eigen::Isometry3d near = refineAlongRays(few, scene, coarse, coarse.iterations, start, &prior);
-  return refineAlongRays(many, scene, fine, last_rounds, near, &prior);
+  const Eigen::Vector3d center = start * view.center().cast<double>();
+  const double noise = depthNoise((center - scene.surface.sensor_origin.cast<double>()).norm());
+  const MotionPrior prior(few, double(stride) * resolution * resolution, scene, rough.start_distance, noise, start);
+  const Eigen::Isometry3d near = refineAlongRays(few, scene, rough, rough.iterations, start, &prior);
+  RefinementSettings last = rough;
+  last.start_distance = last.end_distance;
+  last.iterations = last_rounds;
+  last.max_points *= fine_points;
+  return refinePose(surface.points, surface.normals, scene.surface, last, near, &prior);
 }
 
 }  // namespace sks
