@@ -48,6 +48,7 @@ void Track::update(const FollowedObject& followed, Look look, const Eigen::Isome
     filter_.update(T_reference_cloud * followed.hypothesis.T_scene_model, stamp, depthNoise(range));
     seen_at_ = stamp;
     confirmed_ = true;
+    elsewhere_.reset();
   }
   if (look == Look::full) {
     if (!partly_hidden || evidence > pooled) pool(evidence, stamp - examined_at_);
@@ -65,8 +66,14 @@ void Track::foundAgain(const Hypothesis& found, const Eigen::Isometry3d& T_refer
   confirmed_ = false;
 }
 
+void Track::carry(const Eigen::Isometry3d& motion) {
+  filter_.carry(motion);
+  past_.back().T_reference_model = filter_.pose();
+}
+
 void Track::restart(const Eigen::Isometry3d& T_reference_model, double stamp) {
   filter_ = PoseFilter(T_reference_model, center_, stamp);
+  elsewhere_.reset();
   past_.clear();
   remember(stamp);
 }

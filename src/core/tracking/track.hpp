@@ -45,6 +45,11 @@ public:
               double range);
   /// It was found somewhere else, and is still the same object.
   void foundAgain(const Hypothesis& found, const Eigen::Isometry3d& T_reference_model, double stamp);
+  /// Until it is seen it may as well be here; none: nowhere else.
+  void alsoAt(const Eigen::Isometry3d& T_reference_model) { elsewhere_ = T_reference_model; }
+  const std::optional<Eigen::Isometry3d>& elsewhere() const { return elsewhere_; }
+  /// What is not seen moves with all else.
+  void carry(const Eigen::Isometry3d& motion);
   /// Begins with another reference frame, in which nothing is known of its motion.
   void restart(const Eigen::Isometry3d& T_reference_model, double stamp);
   /// Pose in the reference frame at the time of an earlier cloud.
@@ -64,6 +69,7 @@ private:
   Eigen::Vector3d center_;
   PoseFilter filter_;
   std::deque<Past> past_;
+  std::optional<Eigen::Isometry3d> elsewhere_;
   bool seen_ = true, hidden_ = false, confirmed_ = false;
   double begun_, seen_at_;
   double examined_at_;

@@ -18,10 +18,11 @@
 namespace sks {
 namespace {
 
-constexpr double examination = 0.5;  // [s] between full looks at an object
-constexpr double sure_score = 0.9;   // what is seen with this score need not be searched for
-constexpr double outdone_by = 1.25;  // times the evidence with which a detection takes the place of a track
-constexpr double fastest = 1.0;      // [m/s] that a lost object is moved by a hand
+constexpr double examination = 0.5;   // [s] between full looks at an object
+constexpr double sure_score = 0.9;    // what is seen with this score need not be searched for
+constexpr double outdone_by = 1.25;   // times the evidence with which a detection takes the place of a track
+constexpr double same_motion = 0.01;  // [m] by which centres may be off that move alike
+constexpr double fastest = 1.0;       // [m/s] that a lost object is moved by a hand
 
 double timeOrNever(bool ever, double stamp) {
   return ever ? stamp : -std::numeric_limits<double>::infinity();
@@ -50,6 +51,7 @@ struct Tracker::State {
   void enter(const CloudView& view);
   std::vector<Look> looks(double stamp) const;
   std::vector<FollowedObject> look(const Cloud& cloud, const CloudView& view, const std::vector<Look>& looks) const;
+  Eigen::Isometry3d motionSince(double then) const;
   void dropDoubles();
   void dropOld(double stamp);
   TrackedObject told(const Track& track, double stamp) const;
@@ -108,9 +110,31 @@ std::vector<FollowedObject> Tracker::State::look(const Cloud& cloud, const Cloud
     const PoseFilter& filter = tracks[i].filter();
     std::vector<Eigen::Isometry3d> starts{T_cloud_reference * filter.predicted(view.stamp)};
     if (!filter.stands()) starts.push_back(T_cloud_reference * filter.pose());  // or it has stopped
+    if (tracks[i].elsewhere()) starts.push_back(T_cloud_reference * *tracks[i].elsewhere());
     found[i] = follower.follow(cloud, tracks[i].hypothesis(), starts, color_shift, looks[i]);
   }
   return found;
+}
+
+/// Where no frame is known in which things stand still: how most of what is seen has moved in the frame of the cloud
+/// since an earlier cloud, for the camera has moved. Else, and where nothing tells, not at all.
+Eigen::Isometry3d Tracker::State::motionSince(double then) const {
+  Eigen::Isometry3d common = Eigen::Isometry3d::Identity();
+  std::ptrdiff_t most = 0;
+  if (fixed) return common;
+  const auto tells = [&](const Track& track) { return track.seen() && track.confirmed() && track.begun() <= then; };
+  for (const Track& track : tracks) {
+    if (!tells(track)) continue;
+    const Eigen::Isometry3d motion = track.filter().pose() * track.poseAt(then).inverse();
+    const std::ptrdiff_t alike = std::count_if(tracks.begin(), tracks.end(), [&](const Track& other) {
+      const Eigen::Vector3d moved = motion * (other.poseAt(then) * other.center());
+      return tells(other) && (moved - other.filter().pose() * other.center()).norm() < same_motion;
+    });
+    if (alike <= most) continue;
+    most = alike;
+    common = motion;
+  }
+  return common;
 }
 
 /// One thing is not there twice: of two tracks of an object at one place the older one stays.
@@ -202,11 +226,13 @@ Track* Tracker::State::atPlaceOf(const Hypothesis& found, const Eigen::Isometry3
 void Tracker::State::takeOne(const Detection& detection, const CloudView& view) {
   const Hypothesis found = hypothesisOf(detection);
   const Eigen::Isometry3d T_reference_model = referenceOf(view) * found.T_scene_model;
+  const Eigen::Isometry3d T_now_model = motionSince(view.stamp) * T_reference_model;
   if (Track* same = sameObject(found, T_reference_model, view.stamp)) {
     const bool better_pose = found.evidence > outdone_by * same->hypothesis().evidence;
     if (same->seen() && !better_pose) return;
     if (!same->seen()) ++counts.found_again;
-    same->foundAgain(found, T_reference_model, view.stamp);
+    same->foundAgain(found, T_now_model, view.stamp);
+    same->alsoAt(T_reference_model);
     return;
   }
   if (Track* other = atPlaceOf(found, T_reference_model, view.stamp)) {
@@ -214,7 +240,8 @@ void Tracker::State::takeOne(const Detection& detection, const CloudView& view) 
     ++counts.identity_changes;
     tracks.erase(tracks.begin() + (other - tracks.data()));
   }
-  tracks.emplace_back(next_id++, found, T_reference_model, centerOf(found.view), view.stamp);
+  tracks.emplace_back(next_id++, found, T_now_model, centerOf(found.view), view.stamp);
+  tracks.back().alsoAt(T_reference_model);
   ++counts.begun;
 }
 
@@ -226,6 +253,7 @@ Tracker& Tracker::operator=(Tracker&&) noexcept = default;
 
 std::vector<TrackedObject> Tracker::follow(const Cloud& cloud, const CloudView& view) {
   State& s = *state_;
+  const double before = s.stamp;
   s.enter(view);
   const std::vector<Look> looks = s.looks(view.stamp);
   const std::vector<FollowedObject> found = s.look(cloud, view, looks);
@@ -241,6 +269,10 @@ std::vector<TrackedObject> Tracker::follow(const Cloud& cloud, const CloudView& 
   }
   if (!colors.empty()) {
     s.color_shift = sceneColorShift(colors, color_doubt * s.settings().verification.half_evidence);
+  }
+  const Eigen::Isometry3d motion = s.motionSince(before);
+  for (Track& track : s.tracks) {
+    if (!track.seen()) track.carry(motion);
   }
   s.dropDoubles();
   s.dropOld(view.stamp);
