@@ -271,6 +271,27 @@ TEST_F(TrackerTest, ALateDetectionOfAnEarlierCloudBeginsATrackWhereTheObjectIsNo
   for (const TrackedObject& object : objects) expectRight(object);
 }
 
+TEST_F(TrackerTest, ALateDetectionGoesWithWhatIsFollowedWhereTheCameraMovesUnknown) {
+  look(0);
+  const CloudView earlier = view(false);
+  DetectionResult duck = detector_.detect(see()), drill = duck;
+  const auto keep = [](DetectionResult& result, const std::string& name) {
+    auto& all = result.detections;
+    all.erase(std::remove_if(all.begin(), all.end(), [&](const Detection& d) { return d.object != name; }), all.end());
+  };
+  keep(duck, "duck");
+  keep(drill, "drill");
+  tracker_.take(duck, earlier);
+  for (int i = 0; i <= 15; ++i) {
+    look(0.02 * i);
+    ASSERT_THAT(next(false), SizeIs(1));
+  }
+  tracker_.take(drill, earlier);
+  const auto objects = next(false);
+  ASSERT_THAT(objects, SizeIs(2));
+  for (const TrackedObject& object : objects) expectRight(object, 6, 3);
+}
+
 TEST_F(TrackerTest, WhatOneCloudAloneShowedIsNotTold) {
   look(0);
   DetectionResult found = detector_.detect(see());

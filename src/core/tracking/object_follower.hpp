@@ -21,7 +21,7 @@ struct FollowedObject {
   Hypothesis hypothesis;                       ///< the pose that fits best, with its evidence, of a full look
   double hidden = 0;                           ///< share of what faces the sensor that is behind something else
   double confirmed = 0;                        ///< share of what should be seen that the cloud confirms, in [0, 1]
-  std::optional<Eigen::Vector3f> color_shift;  ///< as in SightLines, of the whole shift
+  std::optional<Eigen::Vector3f> color_shift;  ///< as in SightLines, of the whole shift; of a full look
 };
 
 /// How closely an object is looked at.
@@ -48,6 +48,9 @@ public:
                         const Eigen::Vector3f& color_shift, Look look) const;
 
 private:
+  /// The pose near to `start` that fits best; what the scene tells little about stays as it is there.
+  Eigen::Isometry3d fitted(const Hypothesis& expected, const SceneView& scene, const Eigen::Isometry3d& start) const;
+
   std::shared_ptr<const VerifiedModels> models_;
   Settings settings_;
   std::vector<std::vector<Vote>> no_votes_;  // of each object

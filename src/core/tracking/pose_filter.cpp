@@ -60,6 +60,11 @@ void PoseFilter::update(const Eigen::Isometry3d& measured, double stamp, double 
   stamp_ = stamp;
 }
 
+void PoseFilter::carry(const Eigen::Isometry3d& motion) {
+  T_reference_model_ = motion * T_reference_model_;
+  anchor_ = motion * anchor_;
+}
+
 void PoseFilter::stand(const Eigen::Isometry3d& measured, double noise) {
   const Eigen::Vector3d apart = shift(T_reference_model_, measured);
   const Eigen::Vector3d turned = rotationVector(measured.linear() * T_reference_model_.linear().transpose());

@@ -25,6 +25,9 @@ public:
   /// @param noise of measured positions: standard deviation of depth where the object is [m]
   void update(const Eigen::Isometry3d& measured, double stamp, double noise);
 
+  /// All that was measured moves with the camera.
+  void carry(const Eigen::Isometry3d& motion);
+
 private:
   void stand(const Eigen::Isometry3d& measured, double noise);
   void move(const Eigen::Isometry3d& measured, double seconds, double stamp, double noise);

@@ -10,11 +10,12 @@
 namespace sks {
 namespace {
 
-constexpr double pooling = 1.5;         // [s] after which a full look has lost two thirds of its say in the evidence
-constexpr double kept_past = 5;         // [s] within which the detection of an earlier cloud has to arrive
-constexpr double mostly_hidden = 0.3;   // share of the surface: then little evidence speaks neither way
-constexpr double agrees = 1.0 / 3;      // least share of what should be seen that a cloud has to confirm
-constexpr double least_in_sight = 0.2;  // share of the surface that faces the sensor: with less no pose is measured
+constexpr double pooling = 1.5;          // [s] after which a full look has lost two thirds of its say in the evidence
+constexpr double kept_past = 5;          // [s] within which the detection of an earlier cloud has to arrive
+constexpr double mostly_hidden = 0.3;    // share of the surface: then little evidence speaks neither way
+constexpr double agrees = 1.0 / 3;       // least share of what should be seen that a cloud has to confirm
+constexpr double agrees_at_first = 0.5;  // of an object that was found elsewhere: it may have moved on since
+constexpr double least_in_sight = 0.2;   // share of the surface that faces the sensor: with less no pose is measured
 constexpr double smallest_evidence = 1e-6;  // whose logarithm is taken
 
 }  // namespace
@@ -39,7 +40,7 @@ void Track::update(const FollowedObject& followed, Look look, const Eigen::Isome
                    double range) {
   const bool partly_hidden = followed.hidden > mostly_hidden;
   // A part in sight that agrees, however small, says that the object is still there.
-  seen_ = followed.confirmed >= agrees && 1 - followed.hidden >= least_in_sight;
+  seen_ = followed.confirmed >= (confirmed_ ? agrees : agrees_at_first) && 1 - followed.hidden >= least_in_sight;
   hidden_ = !seen_ && partly_hidden;
   const double evidence = followed.hypothesis.evidence, pooled = hypothesis_.evidence;
   if (seen_) {
@@ -48,10 +49,13 @@ void Track::update(const FollowedObject& followed, Look look, const Eigen::Isome
     filter_.update(T_reference_cloud * followed.hypothesis.T_scene_model, stamp, depthNoise(range));
     seen_at_ = stamp;
     confirmed_ = true;
+    elsewhere_.reset();
   }
   if (look == Look::full) {
     if (!partly_hidden || evidence > pooled) pool(evidence, stamp - examined_at_);
     examined_at_ = stamp;
+    examined_ = true;
+    if (seen_) color_shift_ = followed.color_shift;
   }
   remember(stamp);
 }
@@ -61,10 +65,17 @@ void Track::foundAgain(const Hypothesis& found, const Eigen::Isometry3d& T_refer
   filter_ = PoseFilter(T_reference_model, center_, stamp);
   seen_at_ = std::max(seen_at_, stamp);
   confirmed_ = false;
+  examined_ = false;
+}
+
+void Track::carry(const Eigen::Isometry3d& motion) {
+  filter_.carry(motion);
+  past_.back().T_reference_model = filter_.pose();
 }
 
 void Track::restart(const Eigen::Isometry3d& T_reference_model, double stamp) {
   filter_ = PoseFilter(T_reference_model, center_, stamp);
+  elsewhere_.reset();
   past_.clear();
   remember(stamp);
 }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -35,12 +36,20 @@ public:
   double seenAt() const { return seen_at_; }     ///< [s]
   /// By a full look, or the detection that it began with [s].
   double examinedAt() const { return examined_at_; }
+  bool examined() const { return examined_; }  ///< by a full look since it began
+  /// FollowedObject::color_shift of the last full look.
+  const std::optional<Eigen::Vector3f>& colorShift() const { return color_shift_; }
 
   /// What a new cloud shows. @param T_reference_cloud of that cloud
   void update(const FollowedObject& followed, Look look, const Eigen::Isometry3d& T_reference_cloud, double stamp,
               double range);
   /// It was found somewhere else, and is still the same object.
   void foundAgain(const Hypothesis& found, const Eigen::Isometry3d& T_reference_model, double stamp);
+  /// Until it is seen it may as well be here; none: nowhere else.
+  void alsoAt(const Eigen::Isometry3d& T_reference_model) { elsewhere_ = T_reference_model; }
+  const std::optional<Eigen::Isometry3d>& elsewhere() const { return elsewhere_; }
+  /// What is not seen moves with all else.
+  void carry(const Eigen::Isometry3d& motion);
   /// Begins with another reference frame, in which nothing is known of its motion.
   void restart(const Eigen::Isometry3d& T_reference_model, double stamp);
   /// Pose in the reference frame at the time of an earlier cloud.
@@ -60,9 +69,12 @@ private:
   Eigen::Vector3d center_;
   PoseFilter filter_;
   std::deque<Past> past_;
+  std::optional<Eigen::Isometry3d> elsewhere_;
   bool seen_ = true, hidden_ = false, confirmed_ = false;
   double begun_, seen_at_;
   double examined_at_;
+  bool examined_ = false;
+  std::optional<Eigen::Vector3f> color_shift_;
 };
 
 }  // namespace sks

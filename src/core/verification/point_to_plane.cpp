@@ -29,6 +29,10 @@ void PointToPlane::set(const double* sums) {
   for (int r = 0; r < 6; ++r) b_[r] = *sums++;
 }
 
+void PointToPlane::hold(const MotionPrior& prior, const Eigen::Isometry3d& T_scene_model) {
+  prior.hold(A_, b_, pivot_, T_scene_model);
+}
+
 Eigen::Isometry3d PointToPlane::motion() const {
   Eigen::Matrix<double, 6, 6> damped = A_.selfadjointView<Eigen::Upper>();
   // Motions that the surface does not determine (along a plane, about an axis) stay as they are.

@@ -6,6 +6,8 @@
 
 #include <sks_detector/settings.hpp>
 
+#include "core/verification/motion_prior.hpp"
+
 namespace sks {
 
 constexpr std::size_t fewest_pairs = 6;   // as many as a rigid motion has degrees of freedom
@@ -27,6 +29,9 @@ public:
 
   /// @param sums upper triangle of the matrix, row by row, and then the right side
   void set(const double* sums);
+
+  /// Holds what the pairs tell little about. @param T_scene_model the pose that motion() moves
+  void hold(const MotionPrior& prior, const Eigen::Isometry3d& T_scene_model);
 
   Eigen::Isometry3d motion() const;
 

@@ -83,7 +83,7 @@ HWY_EXPORT(sumPairsImpl);
 
 Eigen::Isometry3d refineAlongRays(const SurfaceSample& sample, const SceneView& scene,
                                   const RefinementSettings& settings, int rounds,
-                                  const Eigen::Isometry3d& T_scene_model) {
+                                  const Eigen::Isometry3d& T_scene_model, const MotionPrior* prior) {
   if (scene.range_image.cells().empty()) return T_scene_model;
   const Eigen::Vector3d centroid = sample.centroid.cast<double>();
   Eigen::Isometry3d refined = T_scene_model;
@@ -97,6 +97,7 @@ Eigen::Isometry3d refineAlongRays(const SurfaceSample& sample, const SceneView& 
     if (sums[27] < double(fewest_pairs)) break;
     PointToPlane system(round.pivot.cast<double>());
     system.set(sums);
+    if (prior != nullptr) system.hold(*prior, refined);
     refined = system.motion() * refined;
   }
   return refined;

@@ -6,6 +6,7 @@
 #include <sks_detector/codebook.hpp>
 #include <sks_detector/settings.hpp>
 
+#include "core/verification/motion_prior.hpp"
 #include "core/verification/pose_evidence.hpp"
 #include "core/verification/surface_sample.hpp"
 
@@ -19,6 +20,6 @@ Eigen::Isometry3d refineAlongRays(const TrainingView& view, const SceneView& sce
 /// Only the first rounds, with the given points.
 Eigen::Isometry3d refineAlongRays(const SurfaceSample& sample, const SceneView& scene,
                                   const RefinementSettings& settings, int rounds,
-                                  const Eigen::Isometry3d& T_scene_model);
+                                  const Eigen::Isometry3d& T_scene_model, const MotionPrior* prior = nullptr);
 
 }  // namespace sks

@@ -42,7 +42,7 @@ void findPairs(const std::vector<Eigen::Vector3f>& points, const std::vector<Eig
 
 Eigen::Isometry3d refinePose(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
                              const Surface& scene, const RefinementSettings& settings,
-                             const Eigen::Isometry3d& T_scene_model) {
+                             const Eigen::Isometry3d& T_scene_model, const MotionPrior* prior) {
   Eigen::Isometry3d refined = T_scene_model;
   const std::size_t stride = points.size() / std::size_t(settings.max_points) + 1;
   thread_local std::vector<PointGrid::Run> runs;  // kept from pose to pose
@@ -55,6 +55,7 @@ Eigen::Isometry3d refinePose(const std::vector<Eigen::Vector3f>& points, const s
     for (const PointPair& pair : pairs) center += pair.model / double(pairs.size());
     PointToPlane system(center);
     for (const PointPair& pair : pairs) system.add(pair.model, pair.scene, pair.normal, distance);
+    if (prior != nullptr) system.hold(*prior, refined);
     refined = system.motion() * refined;
   }
   return refined;

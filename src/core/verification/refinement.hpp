@@ -10,6 +10,8 @@
 #include <sks_detector/stages/hypothesis.hpp>
 #include <sks_detector/stages/surface.hpp>
 
+#include "core/verification/motion_prior.hpp"
+
 namespace sks {
 
 /// Point-to-plane ICP (Chen and Medioni 1991) of the part of a model that faces the sensor against the scene. Each
@@ -20,7 +22,7 @@ namespace sks {
 /// @return the refined pose; `T_scene_model` itself where fewer than six pairs are found
 Eigen::Isometry3d refinePose(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
                              const Surface& scene, const RefinementSettings& settings,
-                             const Eigen::Isometry3d& T_scene_model);
+                             const Eigen::Isometry3d& T_scene_model, const MotionPrior* prior = nullptr);
 
 /// The same for the surface of the hypothesis' training view; its box moves along.
 void refine(Hypothesis& hypothesis, const Codebook& codebook, const Surface& scene, const RefinementSettings& settings);

@@ -18,17 +18,23 @@ using RigidRows = Eigen::Matrix<float, 3, 4, Eigen::RowMajor>;
 /// Some points of a stored surface and their normals side by side, padded with points that face nowhere.
 struct SurfaceSample {
   /// Takes every `stride`-th point of a view's surface.
-  void take(const TrainingView& view, std::size_t stride) {
+  void take(const TrainingView& view, std::size_t stride) { take(view.surface_points, view.surface_normals, stride); }
+
+  void take(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
+            std::size_t stride) {
     for (auto* axis : {&x, &y, &z, &nx, &ny, &nz}) axis->clear();
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    for (std::size_t i = 0; i < view.surface_points.size(); i += stride) {
-      add(view.surface_points[i], view.surface_normals[i]);
-      sum += view.surface_points[i];
+    for (std::size_t i = 0; i < points.size(); i += stride) {
+      add(points[i], normals[i]);
+      sum += points[i];
     }
     size = x.size();
     centroid = sum / float(std::max<std::size_t>(1, size));
     for (std::size_t i = 0; i < PointGrid::simd_padding; ++i) add(centroid, Eigen::Vector3f::Zero());
   }
+
+  Eigen::Vector3f point(std::size_t i) const { return {x[i], y[i], z[i]}; }
+  Eigen::Vector3f normal(std::size_t i) const { return {nx[i], ny[i], nz[i]}; }
 
   std::vector<float> x, y, z, nx, ny, nz;
   std::size_t size = 0;
