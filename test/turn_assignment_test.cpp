@@ -95,6 +95,7 @@ OtherTurn otherTurn(const std::vector<double>& losses) {
   OtherTurn other;
   for (const double loss : losses) {
     other.loss += loss;
+    other.shape_loss += loss;
     other.squares += loss * loss;
     other.largest = std::max(other.largest, loss);
     ++other.pairs;
@@ -110,6 +111,12 @@ TEST(OtherTurn, IsRefutedByTwoPairsAndNotByOne) {
   EXPECT_TRUE(otherTurn({60, 50}).isRefuted()) << "three views have two pairs";
   EXPECT_FALSE(otherTurn({300, -20}).isRefuted());
   EXPECT_FALSE(otherTurn({-50, -50, 10}).isRefuted());
+}
+
+TEST(OtherTurn, IsNotRefutedByPrintsAlone) {
+  OtherTurn other = otherTurn({60, 60, 60});
+  other.shape_loss = 5;
+  EXPECT_FALSE(other.isRefuted());
 }
 
 TEST(OtherTurn, OfAFewDegreesIsTheSame) {

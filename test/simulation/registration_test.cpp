@@ -404,11 +404,10 @@ TEST(ViewRegistrationTest, TiesNoViewOfACartonByHalfATurn) {
   EXPECT_LT(turn, 3 * degree);
 }
 
-/// Its handle is out of sight in a half of them: no two neighbours tell their turn, all together do.
-TEST(ViewRegistrationTest, TiesViewsOfAMugRightly) {
+/// Its handle is out of sight in a half of them, and its print alone is not believed.
+TEST(ViewRegistrationTest, TiesNoViewOfAMugWrongly) {
   const TableView mug("mug");
   const RegisteredObject registered = registerViews(mug.captureAround(12), Settings()).objects.at(0);
-  EXPECT_GE(registered.tied(), 6u);
   const auto [shift, turn] = mug.spread(registered, degreesOf(registered));
   EXPECT_LT(shift, 0.003);
   EXPECT_LT(turn, 3 * degree);

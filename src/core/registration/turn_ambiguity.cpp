@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::size_t other_turns = 36;    // 10 degrees apart, and half a step to each side
 constexpr double refuting = 80;            // least loss of a group that is turned wrongly
+constexpr double refuting_by_shape = 40;   // least loss without prints: those of plain things are light and noise
 constexpr double refuting_pairs = 2;       // as many have to tell it
 constexpr double least_gain_of_move = 5;   // of moving views to where they fit better
 constexpr double other_turn_limit = 0.14;  // [rad] 8 degrees: nearer ones are the same turn
@@ -35,7 +36,7 @@ public:
         poses_(poses),
         settings_(settings),
         pair_of_(views.size() * views.size(), nullptr),
-        gains_(views.size() * views.size(), 0),
+        gains_(views.size() * views.size()),
         headings_(views.size(), 0) {
     for (std::size_t v = 0; v < views.size(); ++v) {
       if (poses[v]) tied_.push_back(v);
@@ -90,15 +91,17 @@ public:
   }
 
 private:
-  double gain(std::size_t v, const Eigen::Isometry3d& T_v, std::size_t t, const Eigen::Isometry3d& T_t) const {
+  UprightPair::Gain gain(std::size_t v, const Eigen::Isometry3d& T_v, std::size_t t,
+                         const Eigen::Isometry3d& T_t) const {
     const UprightPair& pair = *pair_of_[v * views_.size() + t];
     const Eigen::Isometry3d T_t_v = T_t.inverse() * T_v;
-    return pair.gainAt(views_, pair.a == v ? T_t_v : T_t_v.inverse(), settings_);
+    return pair.gainsAt(views_, pair.a == v ? T_t_v : T_t_v.inverse(), settings_);
   }
 
   /// What a pair loses if the first view of it is moved.
-  double lossOf(std::size_t v, std::size_t t, const Eigen::Isometry3d& motion) const {
-    return gains_[v * views_.size() + t] - gain(v, motion * *poses_[v], t, *poses_[t]);
+  UprightPair::Gain lossOf(std::size_t v, std::size_t t, const Eigen::Isometry3d& motion) const {
+    const UprightPair::Gain now = gains_[v * views_.size() + t], moved = gain(v, motion * *poses_[v], t, *poses_[t]);
+    return {now.all - moved.all, now.shape - moved.shape};
   }
 
   /// What a group loses at least at a turn, if each pair could choose its own place there.
@@ -109,7 +112,7 @@ private:
         if (std::binary_search(group.begin(), group.end(), t)) continue;
         const UprightPair& pair = *pair_of_[v * views_.size() + t];
         const double between = headings_[v] + turn - headings_[t];
-        loss += gains_[v * views_.size() + t] - pair.bestGainNear(pair.a == v ? between : -between);
+        loss += gains_[v * views_.size() + t].all - pair.bestGainNear(pair.a == v ? between : -between);
       }
     }
     return loss;
@@ -119,7 +122,7 @@ private:
     std::vector<double> losses(views_.size() * views_.size(), 0);
     for (const std::size_t v : tied_) {
       for (const std::size_t t : tied_) {
-        if (t != v) losses[v * views_.size() + t] = lossOf(v, t, motion);
+        if (t != v) losses[v * views_.size() + t] = lossOf(v, t, motion).all;
       }
     }
     return losses;
@@ -166,7 +169,8 @@ private:
     if (std::abs(other.angle()) < least_turn) return;
     for (const std::size_t v : group) {
       for (const std::size_t t : rest) {
-        const double loss = lossOf(v, t, other.motion);
+        const auto [loss, shape_loss] = lossOf(v, t, other.motion);
+        other.shape_loss += shape_loss;
         other.loss += loss;
         other.largest = std::max(other.largest, loss);
         other.squares += loss * loss;
@@ -184,8 +188,8 @@ private:
   const ViewPoses& poses_;
   const VerificationSettings& settings_;
   std::vector<const UprightPair*> pair_of_;
-  std::vector<double> gains_;     // of all pairs of tied views
-  std::vector<double> headings_;  // of the views [rad]
+  std::vector<UprightPair::Gain> gains_;  // of all pairs of tied views
+  std::vector<double> headings_;          // of the views [rad]
   Group tied_;
   Eigen::Vector3d middle_;
 };
@@ -198,7 +202,8 @@ bool OtherTurn::isOther() const {
 
 bool OtherTurn::isRefuted() const {
   const double alike = refuting_pairs * double(pairs - 1) / double(pairs);
-  return loss > refuting && loss - largest > refuting / refuting_pairs && loss * loss >= alike * squares;
+  return loss > refuting && shape_loss > refuting_by_shape && loss - largest > refuting / refuting_pairs &&
+         loss * loss >= alike * squares;
 }
 
 const OtherTurn* TurnAmbiguity::best() const {

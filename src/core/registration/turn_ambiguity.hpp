@@ -20,6 +20,7 @@ struct OtherTurn {
   std::vector<std::size_t> views;                            ///< in ascending order; at most half of all
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();  ///< of their poses
   double loss = 0;        ///< of what all pairs say for the poses, if they are moved [log-likelihood ratio]
+  double shape_loss = 0;  ///< of the loss, what prints have no part in
   double largest = 0;     ///< what the pair loses that loses most
   double squares = 0;     ///< sum of the squares of what each pair loses
   std::size_t pairs = 0;  ///< of a view that is moved and one that stays

@@ -39,9 +39,16 @@ double UprightPair::bestGainNear(double turn) const {
   return best;
 }
 
+UprightPair::Gain UprightPair::gainsAt(const std::vector<CapturedView>& views, const Eigen::Isometry3d& T_b_a,
+                                       const VerificationSettings& settings) const {
+  const ViewEvidence evidence = ViewComparison(views[a], views[b], settings).at(T_b_a, usual);
+  const double all = gainOf(evidence);
+  return {all, all - evidence.color};
+}
+
 double UprightPair::gainAt(const std::vector<CapturedView>& views, const Eigen::Isometry3d& T_b_a,
                            const VerificationSettings& settings) const {
-  return gainOf(ViewComparison(views[a], views[b], settings).at(T_b_a, usual));
+  return gainsAt(views, T_b_a, settings).all;
 }
 
 Eigen::Isometry3d poseOfItsOwn(const CapturedView& view) {

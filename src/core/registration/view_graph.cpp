@@ -276,7 +276,7 @@ TiedViews tieViews(const std::vector<CapturedView>& views, const PairwiseKnowled
     return *earlier[count];
   });
   result.loops = best.tied()->loopErrors();
-  if (best.order() > 1 && views.size() >= fewest_symmetric) {
+  if (best.order() > 1 && best.tied()->size() >= fewest_symmetric) {
     result.symmetry = Symmetry{Eigen::Vector3d::UnitZ(), best.order()};
   }
   return result;
