@@ -37,10 +37,11 @@ struct UprightPair {
   double bestGainNear(double turn) const;
   /// What evidence says for a pose [log-likelihood ratio]; 0: nothing.
   double gainOf(const ViewEvidence& evidence) const;
-  /// The same of a pose, with prints and without. @param views of all pairs
+  /// With prints, and without.
   struct Gain {
     double all = 0, shape = 0;
   };
+  /// The same of a pose. @param views of all pairs
   Gain gainsAt(const std::vector<CapturedView>& views, const Eigen::Isometry3d& T_b_a,
                const VerificationSettings& settings) const;
   double gainAt(const std::vector<CapturedView>& views, const Eigen::Isometry3d& T_b_a,
