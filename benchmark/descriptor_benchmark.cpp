@@ -8,6 +8,7 @@
 
 #include <sks_detector/stages/descriptors.hpp>
 
+#include "core/keypoints/sparse_selection.hpp"
 #include "core/surface/sanitize.hpp"
 #include "pair.hpp"
 #include "pcl_clouds.hpp"
