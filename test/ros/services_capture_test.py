@@ -90,27 +90,29 @@ class CaptureServicesTest(services_support.ServicesTest):
 
     def test_registers_views_as_they_come(self):
         """What a new view adds to the model, the same view again, and a view that is taken back."""
-        replies = [self.captured(tabletop(standing(synthetic.THING, 0.05, turn=turn)), "thing") for turn in (0, 20, 40)]
+        # Its outline says little, and it has no colour: three views would also fit each other from opposite sides.
+        turns = (0, 30, 60, 90, 120, 150)
+        replies = [self.captured(tabletop(standing(synthetic.THING, 0.05, turn=turn)), "thing") for turn in turns]
         self.assertEqual([reply.registered for reply in replies[:2]], [False, False])
         last = replies[-1]
         self.assertTrue(last.registered, last.message)
-        self.assertEqual(last.registered_views, 3)
-        self.assertIn("3 of 3 views are registered", last.message)
-        self.assertTrue(0.15 < last.coverage < 0.5, last.coverage)
+        self.assertEqual(last.registered_views, 6)
+        self.assertIn("6 of 6 views are registered", last.message)
+        self.assertTrue(0.3 < last.coverage < 0.9, last.coverage)
         self.assertIn("degrees", last.missing)
-        self.assertEqual([reply.same_as for reply in replies], ["", "", ""])
+        self.assertEqual([reply.same_as for reply in replies], [""] * 6)
         position, orientation = last.pose.position, last.pose.orientation
         self.assertGreater(position.z, 0.2)  # the camera looks down on the model
         self.assertAlmostEqual(sum(getattr(orientation, axis) ** 2 for axis in "xyzw"), 1, delta=1e-6)
 
-        again = self.captured(tabletop(standing(synthetic.THING, 0.05, turn=20)), "thing")
+        again = self.captured(tabletop(standing(synthetic.THING, 0.05, turn=30)), "thing")
         self.assertEqual(again.same_as, "thing/001.pcd")
         self.assertIn("it shows the same as view 2", again.message)
         undone = self.succeed("undo_capture", "thing")
-        self.assertIn("3 views are left", undone.message)
-        self.assertFalse(os.path.exists(self.file("thing/003.pcd")))
+        self.assertIn("6 views are left", undone.message)
+        self.assertFalse(os.path.exists(self.file("thing/006.pcd")))
         trained = self.succeed("train")
-        self.assertEqual(trained.views, 3)
+        self.assertEqual(trained.views, 6)
         self.refuse("undo_capture", "no view of 'other' was captured", object="other")
 
     def test_says_which_captured_views_have_no_plane(self):
