@@ -38,7 +38,8 @@ def main():
     with rosbag.Bag(arguments.bag) as bag:
         tracks, stamps = tracks_of(m for _, m, _ in bag.read_messages(topics=[arguments.topic]))
     if not tracks:
-        sys.exit(f'{arguments.bag}: {len(stamps)} clouds on {arguments.topic}, in which nothing was followed')
+        sys.exit(f'{arguments.bag}: {len(stamps)} clouds on {arguments.topic}, in which nothing was followed; '
+                 'searches run beside the clouds at low priority: is the machine busy?')
     print(f'\n{len(stamps)} clouds in {stamps[-1] - stamps[0]:.1f} s')
     print(f"{'id':>4}  {'object':<18}from [s]  to [s]  clouds  score")
     for number, track in sorted(tracks.items()):
