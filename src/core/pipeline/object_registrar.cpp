@@ -175,8 +175,8 @@ RegisteredObject ObjectRegistrar::result() const {
   RegisteredObject object;
   object.object = views_->object;
   object.frame = views_->object + "#model";
-  TiedViews tied = tieViews(views, views_->pairs, views_->settings, views_->limits, LoopLimits(), views_->threads,
-                            views_->earlier);
+  TiedViews tied =
+      tieViews(views, views_->pairs, views_->settings, views_->limits, LoopLimits(), views_->threads, views_->earlier);
   object.loops = tied.loops;
   object.symmetry = tied.symmetry;
   object.on_plane = tied.axes && views[tied.axes->first].plane;
