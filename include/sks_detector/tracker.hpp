@@ -76,7 +76,8 @@ public:
   /// hidden.
   bool wantsDetection(double stamp) const;
 
-  /// Where there is no need to search, in the frame of the last cloud: objects that are seen with hardly a doubt.
+  /// Where there is no need to search, in the frame of the last cloud: objects that are seen with hardly a doubt, and
+  /// that two searches have found.
   std::vector<OccupiedBox> occupied() const;
 
   /// Ends all tracks.

@@ -324,9 +324,11 @@ TEST_F(TrackerTest, AnotherReferenceFrameLeavesTheObjectsWhereTheyAre) {
   for (const TrackedObject& object : objects) expectRight(object);
 }
 
-TEST_F(TrackerTest, WhereObjectsAreKnownNothingIsSearched) {
+TEST_F(TrackerTest, WhereTwoSearchesFoundThemNothingIsSearched) {
   begin();
   for (int i = 0; i < 3; ++i) next();
+  EXPECT_THAT(tracker_.occupied(), IsEmpty());
+  search();
   ASSERT_THAT(tracker_.occupied(), SizeIs(2));
   EXPECT_THAT(detector_.detect(see(), nullptr, tracker_.occupied()).above(0.5), IsEmpty());
   EXPECT_THAT(detector_.detect(see()).above(0.5), SizeIs(2));

@@ -66,6 +66,7 @@ void Track::foundAgain(const Hypothesis& found, const Eigen::Isometry3d& T_refer
   seen_at_ = std::max(seen_at_, stamp);
   confirmed_ = false;
   examined_ = false;
+  searches_ = 1;
 }
 
 void Track::carry(const Eigen::Isometry3d& motion) {

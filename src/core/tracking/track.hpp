@@ -37,13 +37,16 @@ public:
   /// By a full look, or the detection that it began with [s].
   double examinedAt() const { return examined_at_; }
   bool examined() const { return examined_; }  ///< by a full look since it began
+  int searches() const { return searches_; }   ///< that found it with this pose, or none that is much better
   /// FollowedObject::color_shift of the last full look.
   const std::optional<Eigen::Vector3f>& colorShift() const { return color_shift_; }
 
   /// What a new cloud shows. @param T_reference_cloud of that cloud
   void update(const FollowedObject& followed, Look look, const Eigen::Isometry3d& T_reference_cloud, double stamp,
               double range);
-  /// It was found somewhere else, and is still the same object.
+  /// A search found it where it is, with a pose that is not much better.
+  void foundHere() { ++searches_; }
+  /// It was found somewhere else, or with a better pose, and is still the same object.
   void foundAgain(const Hypothesis& found, const Eigen::Isometry3d& T_reference_model, double stamp);
   /// Until it is seen it may as well be here; none: nowhere else.
   void alsoAt(const Eigen::Isometry3d& T_reference_model) { elsewhere_ = T_reference_model; }
@@ -74,6 +77,7 @@ private:
   double begun_, seen_at_;
   double examined_at_;
   bool examined_ = false;
+  int searches_ = 1;
   std::optional<Eigen::Vector3f> color_shift_;
 };
 

@@ -11,7 +11,8 @@
 namespace sks {
 namespace {
 
-constexpr double sure_score = 0.9;  // what is seen with this score need not be searched for
+constexpr double sure_score = 0.9;  // what is seen with this score need not be searched for,
+constexpr int sure_searches = 2;    // if as many searches found it: one cloud may show a box by half a turn
 
 double timeOrNever(bool ever, double stamp) {
   return ever ? stamp : -std::numeric_limits<double>::infinity();
@@ -80,7 +81,8 @@ std::vector<OccupiedBox> Tracker::occupied() const {
   const State& s = *state_;
   std::vector<OccupiedBox> boxes;
   for (const Track& track : s.tracks) {
-    if (!track.seen() || !track.confirmed() || track.score(s.settings()) < sure_score) continue;
+    const bool sure = track.score(s.settings()) >= sure_score && track.searches() >= sure_searches;
+    if (!track.seen() || !track.confirmed() || !sure) continue;
     boxes.push_back({s.T_reference_cloud.inverse() * track.filter().pose() * Eigen::Translation3d(track.center()),
                      track.hypothesis().box_size});
   }

@@ -69,7 +69,7 @@ void Tracker::State::takeOne(const Detection& detection, const CloudView& view) 
   const Eigen::Isometry3d T_now_model = motionSince(view.stamp) * T_reference_model;
   if (Track* same = sameObject(found, T_reference_model, view.stamp)) {
     const bool better_pose = found.evidence > outdone_by * same->hypothesis().evidence;
-    if (same->seen() && !better_pose) return;
+    if (same->seen() && !better_pose) return same->foundHere();
     if (!same->seen()) ++counts.found_again;
     same->foundAgain(found, T_now_model, view.stamp);
     same->alsoAt(T_reference_model);
