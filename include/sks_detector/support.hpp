@@ -25,7 +25,7 @@ struct Support {
 };
 
 /// Finds the plane that most of the detections stand on; where none stands on any, the largest. Planes are sought by
-/// RANSAC in points thinned to an even density, at most four, none smaller than 0.04 m^2; curved surfaces are none.
+/// RANSAC in points thinned to an even density, first around the detections; none is smaller than 0.04 m^2.
 /// Deterministic, and safe to call from several threads.
 /// @param cloud in metres, in any frame, with its sensor_origin; points that `settings` leave out do not count
 /// @param detections in the frame of the cloud, of a score that counts

@@ -115,6 +115,24 @@ TEST(Support, IsNotALargerFloorOrWallWhereThingsStandOnATable) {
   EXPECT_GT(largest->size.maxCoeff(), 1.2);
 }
 
+TEST(Support, IsFoundFromNearAndFarBeforeFloorAndWall) {
+  for (const double elevation : {25, 45, 80}) {
+    for (const double distance : {0.8, 2.0}) {
+      SCOPED_TRACE(testing::Message() << elevation << " degrees, " << distance << " m");
+      SupportScene scene;
+      scene.T_table_camera = cameraAt({0, 0, 0}, -70, elevation * degree, distance);
+      scene.addTableTop();
+      scene.addBox({3, 3, 0.02}, {0, 0, -0.5});
+      scene.addBox({3, 0.02, 2}, {0, 1.2, 0});
+      scene.addThing({0.1, 0, 0});
+      const auto support = scene.support();
+      ASSERT_TRUE(support);
+      expectTableTop(scene, *support);
+      EXPECT_EQ(support->standing, 1u);
+    }
+  }
+}
+
 TEST(Support, EndsAtAWallBehindIt) {
   SupportScene scene;
   scene.addTableTop();

@@ -3,15 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <numeric>
+#include <random>
 #include <utility>
 
 #include <sks_detector/error.hpp>
 #include <sks_detector/stages/point_grid.hpp>
 
 #include "core/capture/convex_polygon.hpp"
-#include "core/capture/plane_patch.hpp"
 #include "core/capture/smallest_rectangle.hpp"
+#include "core/surface/clusters.hpp"
 #include "core/surface/plane_fit.hpp"
 #include "core/surface/plane_ransac.hpp"
 #include "core/surface/sanitize.hpp"
@@ -20,83 +21,110 @@
 namespace sks {
 namespace {
 
-constexpr double support_spacing = 0.01;    // of the points in which planes are sought [m]
-constexpr double support_tolerance = 0.01;  // farthest that points of a plane lie from it at first [m]
-constexpr double support_gap = 0.05;        // what is farther apart is no one plane [m]
-constexpr double smallest_support = 0.04;   // [m^2] a square of 0.2 m; things show less
-constexpr double uneven = 0.005;            // [m] standard deviation from which on a surface is curved
-constexpr int most_supports = 4;            // planes that are looked at
+constexpr double support_spacing = 0.01;      // of the points in which planes are sought [m]
+constexpr double support_gap = 0.05;          // what is farther apart is no one plane [m]
+constexpr double smallest_support = 0.04;     // [m^2] a square of 0.2 m; things show less
+constexpr int most_supports = 6;              // planes that are looked at, in each of two searches
+constexpr std::size_t most_samples = 3000;    // points that planes are sought in
+constexpr std::size_t fewest_of_plane = 300;  // points of a plane: most of the smallest one
+
+// How far points of a plane lie from it.
+constexpr double depth_step = 0.0032;     // [1/m] of the squared distance: steps of a Kinect's depth
+constexpr double least_tolerance = 0.01;  // [m]
+constexpr double tolerance_per_step = 1.25;
+constexpr double largest_deviation = 0.5;  // of the tolerance: noise lies below, curved surfaces above
 
 // A plane is fitted again to what lies near it, without the feet of things.
 constexpr int refits = 3;
 constexpr double near_deviations = 2;
-constexpr float nearest_band = 0.002f;  // [m] what is nearer than this belongs to it in any case
+constexpr double nearest_band = 0.002;  // [m]
 
 // What lies at a plane but belongs to what crosses it, like a wall behind a table, has other normals.
-constexpr float normal_radius = 0.025f;  // [m]
+constexpr float support_normal_radius = 0.025f;  // [m]
 constexpr int fewest_for_normal = 5;
 constexpr float normal_agreement = 0.9f;  // cosine; about 25 degrees
 
+constexpr float around_things = 0.25f;     // [m] their support is sought so far around their boxes
 constexpr double standing_contact = 0.02;  // [m] the boxes of what stands on a plane end nearer to it than this
 constexpr float beside = 0.03f;            // [m] how far beyond the outline the middle of what stands there may lie
 
-/// Points of even density that are not part of a plane yet, and their normals, of either sign.
-struct Rest {
+/// Points of even density, and their normals, towards the sensor; NaN where there is none.
+struct ThinnedScene {
   std::vector<Eigen::Vector3f> points, normals;
+  Eigen::Vector3f sensor;
 };
 
-Rest thinned(const Cloud& cloud) {
-  Rest rest;
-  rest.points = groupByVoxel(cloud.points, support_spacing).centroids;
-  const PointGrid grid(rest.points, normal_radius);
+ThinnedScene thinnedScene(const Cloud& cloud, SanitizeSettings settings) {
+  settings.remove_duplicates = false;  // thinning does
+  const Cloud usable = sanitize(cloud, settings);
+  ThinnedScene scene{groupByVoxel(usable.points, support_spacing).centroids, {}, cloud.sensor_origin};
+  const PointGrid grid(scene.points, support_normal_radius);
   std::vector<float> nx(grid.size()), ny(grid.size()), nz(grid.size());
-  fitPlanesAtPoints(grid, 0, grid.size(), normal_radius, fewest_for_normal, {nx.data(), ny.data(), nz.data()});
-  rest.normals.resize(grid.size());
-  for (std::size_t i = 0; i < grid.size(); ++i) rest.normals[grid.source[i]] = {nx[i], ny[i], nz[i]};
-  return rest;
-}
-
-Rest without(const Indices& ascending, const Rest& all) {
-  Rest rest;
-  auto next = ascending.begin();
-  for (std::uint32_t i = 0; i < all.points.size(); ++i) {
-    if (next != ascending.end() && *next == i) {
-      ++next;
-      continue;
-    }
-    rest.points.push_back(all.points[i]);
-    rest.normals.push_back(all.normals[i]);
+  fitPlanesAtPoints(grid, 0, grid.size(), support_normal_radius, fewest_for_normal, {nx.data(), ny.data(), nz.data()});
+  scene.normals.resize(grid.size());
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    const Eigen::Vector3f normal(nx[i], ny[i], nz[i]);
+    const bool away = normal.dot(scene.sensor - grid.point(i)) < 0;
+    scene.normals[grid.source[i]] = away ? Eigen::Vector3f(-normal) : normal;
   }
-  return rest;
+  return scene;
 }
 
-/// A plane and its points, the largest connected part of them.
+/// Points with normals, all of them or those around the detections.
+Indices searchedPoints(const ThinnedScene& scene, const std::vector<Detection>* around) {
+  Indices searched;
+  for (std::uint32_t i = 0; i < scene.points.size(); ++i) {
+    if (!scene.normals[i].allFinite()) continue;
+    const auto is_near = [&](const Detection& detection) {
+      const float reach = 0.5f * float(detection.box_size.norm()) + around_things;
+      return (detection.position().cast<float>() - scene.points[i]).squaredNorm() < reach * reach;
+    };
+    if (around == nullptr || std::any_of(around->begin(), around->end(), is_near)) searched.push_back(i);
+  }
+  return searched;
+}
+
+/// A plane and its points, a connected part of them.
 struct FlatPart {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< to the side of the sensor
   Eigen::Vector3f mean = Eigen::Vector3f::Zero();    ///< [m]
-  std::vector<Eigen::Vector3f> points;
+  std::vector<Eigen::Vector3f> points;               ///< none where this is no plane
 };
 
-/// A patch without what only touches its plane.
-FlatPart flatPart(const PlanePatch& patch, const Rest& rest) {
-  FlatPart part{patch.plane.normal(), patch.plane.projection(patch.points.front()), patch.points};
-  double deviation = patch.deviation;
-  for (int i = 0; i < refits; ++i) {
-    const float band = std::max(nearest_band, float(near_deviations * deviation));
-    std::vector<Eigen::Vector3f> flat;
-    for (const std::uint32_t index : patch.inliers) {
-      const Eigen::Vector3f& p = rest.points[index];
-      const bool agrees = std::abs(rest.normals[index].dot(part.normal)) > normal_agreement;  // not where it is NaN
-      if (agrees && std::abs(part.normal.dot(p - part.mean)) < band) flat.push_back(p);
-    }
-    const std::vector<Indices> connected = findClusters(flat, support_gap);
-    if (connected.empty() || connected.front().size() < 3) return {};
-    part.points = at(flat, connected.front());
+/// The connected part of a plane that holds most of the searched points.
+std::vector<Eigen::Vector3f> connectedPart(const ThinnedScene& scene, const InfinitePlane& plane, double band,
+                                           const std::vector<char>& is_searched) {
+  Indices members;
+  for (std::uint32_t i = 0; i < scene.points.size(); ++i) {
+    if (plane.contains(scene.points[i], scene.normals[i], {float(band), normal_agreement})) members.push_back(i);
+  }
+  const std::vector<Eigen::Vector3f> points = at(scene.points, members);
+  Indices best;
+  std::ptrdiff_t most = 0;
+  for (Indices& part : findClusters(points, support_gap)) {
+    const auto count =
+        std::count_if(part.begin(), part.end(), [&](std::uint32_t i) { return is_searched[members[i]] != 0; });
+    if (count > most) most = count, best = std::move(part);
+  }
+  return at(points, best);
+}
+
+FlatPart flatPart(const ThinnedScene& scene, InfinitePlane plane, double tolerance,
+                  const std::vector<char>& is_searched) {
+  FlatPart part;
+  double band = tolerance;
+  for (int i = 0; i <= refits; ++i) {
+    part.points = connectedPart(scene, plane, band, is_searched);
+    if (part.points.size() < 3) return {};
     const PlaneFit fit = leastSquaresPlane(part.points);
-    deviation = std::sqrt(fit.variances[0]);
-    const Eigen::Vector3f normal = fit.normal.cast<float>();
-    part.normal = normal.dot(patch.plane.normal()) < 0 ? Eigen::Vector3f(-normal) : normal;
+    const double deviation = std::sqrt(fit.variances[0]);
+    if (i == 0 && deviation > largest_deviation * tolerance) return {};
+    const bool away = fit.normal.dot(scene.sensor.cast<double>() - fit.mean) < 0;
+    part.normal = (away ? Eigen::Vector3d(-fit.normal) : fit.normal).cast<float>();
     part.mean = fit.mean.cast<float>();
+    plane = {part.normal, part.normal.dot(part.mean)};
+    const double step = depth_step * double((part.mean - scene.sensor).squaredNorm());
+    band = std::max({nearest_band, step, near_deviations * deviation});
   }
   return part;
 }
@@ -159,33 +187,41 @@ private:
   ConvexPolygon outline_;
 };
 
-/// Those that are large and even enough, the most points first.
-std::vector<Candidate> findCandidates(const Cloud& cloud) {
+/// Those that are large and even enough, the most points first. @param around null: everywhere
+std::vector<Candidate> findCandidates(const ThinnedScene& scene, const std::vector<Detection>* around) {
   std::vector<Candidate> candidates;
-  Rest rest = thinned(cloud);
+  Indices searched = searchedPoints(scene, around);
+  std::vector<char> is_searched(scene.points.size(), 0);
+  for (const std::uint32_t i : searched) is_searched[i] = 1;
+  std::mt19937 random(1);
   for (int i = 0; i < most_supports; ++i) {
-    const PlanePatch patch = largestPatch(rest.points, support_tolerance, support_gap, cloud.sensor_origin);
-    if (patch.points.size() < 3) break;
-    if (patch.deviation < uneven) {
-      const FlatPart part = flatPart(patch, rest);
-      if (part.points.size() >= 3) candidates.emplace_back(part);
-      if (!candidates.empty() && candidates.back().area() < smallest_support) candidates.pop_back();
+    const std::size_t stride = searched.size() / most_samples + 1;
+    OrientedPoints samples;
+    double squared = 0;
+    for (std::size_t k = 0; k < searched.size(); k += stride) {
+      const std::uint32_t index = searched[k];
+      samples.add(scene.points[index], scene.normals[index]);
+      squared += double((scene.points[index] - scene.sensor).squaredNorm());
     }
-    rest = without(patch.inliers, rest);
+    const std::size_t fewest = std::max<std::size_t>(3, fewest_of_plane / stride);
+    if (samples.size() < fewest) break;
+    const double step = depth_step * squared / double(samples.size());
+    const PlaneTolerance tolerance{float(std::max(least_tolerance, tolerance_per_step * step)), normal_agreement};
+    const SupportedPlane found = mostSupportedPlane(samples, tolerance, fewest, random, 1);
+    if (found.members.size() < fewest) break;
+    const FlatPart part = flatPart(scene, found.plane, tolerance.distance, is_searched);
+    if (!part.points.empty()) candidates.emplace_back(part);
+    if (!part.points.empty() && candidates.back().area() < smallest_support) candidates.pop_back();
+    const auto on_plane = [&](std::uint32_t index) {
+      return found.plane.contains(scene.points[index], scene.normals[index], tolerance);
+    };
+    searched.erase(std::remove_if(searched.begin(), searched.end(), on_plane), searched.end());
   }
   return candidates;
 }
 
-}  // namespace
-
-std::optional<Support> findSupport(const Cloud& cloud, const std::vector<Detection>& detections,
-                                   const SanitizeSettings& settings) {
-  std::vector<Candidate> candidates;
-  try {
-    candidates = findCandidates(sanitize(cloud, settings));
-  } catch (const Error&) {  // nothing usable
-    return std::nullopt;
-  }
+/// The one that most stands on, with what stands there; none of no candidates.
+std::optional<Support> bestOf(const std::vector<Candidate>& candidates, const std::vector<Detection>& detections) {
   const Candidate* best = nullptr;
   double best_contact = 0;
   std::size_t best_standing = 0;
@@ -197,14 +233,31 @@ std::optional<Support> findSupport(const Cloud& cloud, const std::vector<Detecti
       contact += one;
       standing += one > 0 ? 1 : 0;
     }
-    const bool better =
-        best == nullptr || contact > best_contact || (contact == best_contact && candidate.area() > best->area());
-    if (better) best = &candidate, best_contact = contact, best_standing = standing;
+    const bool larger = best == nullptr || candidate.area() > best->area();
+    if (contact < best_contact || (contact == best_contact && !larger)) continue;
+    best = &candidate, best_contact = contact, best_standing = standing;
   }
   if (best == nullptr) return std::nullopt;
   Support support = best->support();
   support.standing = best_standing;
   return support;
+}
+
+}  // namespace
+
+std::optional<Support> findSupport(const Cloud& cloud, const std::vector<Detection>& detections,
+                                   const SanitizeSettings& settings) {
+  ThinnedScene scene;
+  try {
+    scene = thinnedScene(cloud, settings);
+  } catch (const Error&) {  // nothing usable
+    return std::nullopt;
+  }
+  if (!detections.empty()) {
+    const std::optional<Support> around = bestOf(findCandidates(scene, &detections), detections);
+    if (around && around->standing > 0) return around;
+  }
+  return bestOf(findCandidates(scene, nullptr), detections);
 }
 
 }  // namespace sks
