@@ -44,8 +44,8 @@ class OutputsTest(unittest.TestCase):
         found = self.listen("detections", DetectionArray)
         three_d = self.listen("detections_3d", Detection3DArray)
         boxes = self.listen("boxes", BoundingBoxArray)
-        stamp = self.source.send(support.cloud_message(synthetic.scene()))
-        detections = found.wait_for_stamp(stamp).detections
+        answer = support.answer(self.source, support.cloud_message(synthetic.scene()), found)
+        stamp, detections = answer.header.stamp, answer.detections
         self.assertEqual(sorted(d.object for d in detections), ["round", "thing"])
         objects = self.objects()
         vision, jsk = three_d.wait_for_stamp(stamp), boxes.wait_for_stamp(stamp)
@@ -53,7 +53,8 @@ class OutputsTest(unittest.TestCase):
         self.assertEqual((len(vision.detections), len(jsk.boxes)), (2, 2))
         for detection, in_vision, in_jsk in zip(detections, vision.detections, jsk.boxes):
             place = objects.index(detection.object)
-            self.assertEqual((in_vision.header, in_jsk.header), (vision.header, vision.header))
+            for header in (in_vision.header, in_jsk.header):
+                self.assertEqual((header.stamp, header.frame_id), (stamp, "camera"))
             self.assertEqual([(r.id, r.pose) for r in in_vision.results], [(place, detection.pose)])
             self.assertAlmostEqual(in_vision.results[0].score, detection.score, places=6)
             self.assertEqual((in_vision.bbox.center, in_vision.bbox.size), (detection.box_center, detection.box_size))
@@ -65,17 +66,17 @@ class OutputsTest(unittest.TestCase):
         for topic, message_type in (("detections_3d", Detection3DArray), ("boxes", BoundingBoxArray)):
             with self.subTest(topic):
                 recorder = self.listen(topic, message_type)
-                stamp = self.source.send(support.cloud_message(synthetic.scene(names=("thing",))))
-                answer = recorder.wait_for_stamp(stamp)
+                cloud = support.cloud_message(synthetic.scene(names=("thing",)))
+                answer = support.answer(self.source, cloud, recorder)
                 self.assertEqual(len(getattr(answer, "detections", None) or answer.boxes), 1)
                 recorder.close()
 
     def test_a_scene_without_objects_is_an_empty_array(self):
         three_d = self.listen("detections_3d", Detection3DArray)
         boxes = self.listen("boxes", BoundingBoxArray)
-        stamp = self.source.send(support.cloud_message(synthetic.scene(names=())))
-        self.assertEqual(three_d.wait_for_stamp(stamp).detections, [])
-        self.assertEqual(boxes.wait_for_stamp(stamp).boxes, [])
+        answer = support.answer(self.source, support.cloud_message(synthetic.scene(names=())), three_d)
+        self.assertEqual(answer.detections, [])
+        self.assertEqual(boxes.wait_for_stamp(answer.header.stamp).boxes, [])
 
 
 if __name__ == "__main__":

@@ -216,6 +216,7 @@ class PlanningSceneTest(unittest.TestCase):
     def test_who_comes_later_gets_all(self):
         self.settle(detection(), detection("jug", 0.5))
         self.move_group.wait_for_ids("object_1", "object_2")
+        self.move_group.close()  # subscribers of one process share a connection
         late = MoveGroup()
         self.addCleanup(late.close)
         self.assertEqual(late.wait_for_ids("object_1", "object_2")["object_2"].type.key, "jug")
