@@ -33,7 +33,7 @@ moveit_msgs::CollisionObject addition(const SceneObject& object, const std_msgs:
   message.type.key = object.name;
   shape_msgs::SolidPrimitive box;
   box.type = shape_msgs::SolidPrimitive::BOX;
-  for (const double edge : object.box.size) box.dimensions.push_back(std::max(least_edge, edge));
+  for (int axis = 0; axis < 3; ++axis) box.dimensions.push_back(std::max(least_edge, object.box.size[axis]));
   message.primitives.push_back(box);
   message.primitive_poses.push_back(toMessage(object.box.T_scene_box));
   message.operation = moveit_msgs::CollisionObject::ADD;
