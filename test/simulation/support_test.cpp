@@ -159,6 +159,29 @@ TEST(Support, IsAShelfThatMostThingsStandOn) {
   EXPECT_NEAR(support->size.y(), shelf.y(), 0.04);
 }
 
+TEST(Support, IsNotAFrameThatLiesAroundThings) {
+  SupportScene scene;
+  scene.addTableTop();
+  for (const double x : {-0.25, 0.25}) scene.addBox({0.3, 0.5, 0.015}, {x, 0, 0.0075});
+  scene.addBox({0.8, 0.1, 0.015}, {0, 0.2, 0.0075});
+  scene.addThing({0, 0, 0});
+  const auto support = scene.support();
+  ASSERT_TRUE(support);
+  EXPECT_NEAR((scene.T_table_camera * support->T_scene_plane).translation().z(), 0, 0.003);
+  EXPECT_EQ(support->standing, 1u);
+}
+
+TEST(Support, OfALyingRoundThingIsFoundThoughItsBoxIsTurned) {
+  SupportScene scene;
+  scene.addTableTop();
+  scene.addThing({0.1, 0, 0});
+  scene.detections[0].T_scene_box.rotate(Eigen::AngleAxisd(45 * degree, Eigen::Vector3d::UnitX()));
+  const auto support = scene.support();
+  ASSERT_TRUE(support);
+  expectTableTop(scene, *support);
+  EXPECT_EQ(support->standing, 1u);
+}
+
 TEST(Support, IsTheSameInAnyFrame) {
   SupportScene scene;
   scene.addTableTop();

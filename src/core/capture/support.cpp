@@ -2,6 +2,7 @@
 #include <sks_detector/support.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -32,11 +33,11 @@ constexpr std::size_t fewest_of_plane = 300;  // points of a plane: most of the 
 constexpr double depth_step = 0.0032;     // [1/m] of the squared distance: steps of a Kinect's depth
 constexpr double least_tolerance = 0.01;  // [m]
 constexpr double tolerance_per_step = 1.25;
-constexpr double largest_deviation = 0.5;  // of the tolerance: noise lies below, curved surfaces above
 
-// A plane is fitted again to what lies near it, without the feet of things.
-constexpr int refits = 3;
-constexpr double near_deviations = 2;
+// A plane is fitted again and again to what lies nearer to it: shares of the tolerance. Most of a plane is near in the
+// end, of what is curved less.
+constexpr std::array<double, 4> fitted_shares{1, 0.7, 0.4, 0.4};
+constexpr double least_nearest = 0.5;
 constexpr double nearest_band = 0.002;  // [m]
 
 // What lies at a plane but belongs to what crosses it, like a wall behind a table, has other normals.
@@ -46,6 +47,8 @@ constexpr float normal_agreement = 0.9f;  // cosine; about 25 degrees
 
 constexpr float around_things = 0.25f;     // [m] their support is sought so far around their boxes
 constexpr double standing_contact = 0.02;  // [m] the boxes of what stands on a plane end nearer to it than this
+constexpr double deepest_corner = 0.05;    // [m] what is round may lie so that a corner of its box ends below, and
+constexpr double least_contact = 0.1;      // ... counts little then, but stands
 constexpr float beside = 0.03f;            // [m] how far beyond the outline the middle of what stands there may lie
 
 /// Points of even density, and their normals, towards the sensor; NaN where there is none.
@@ -109,24 +112,26 @@ std::vector<Eigen::Vector3f> connectedPart(const ThinnedScene& scene, const Infi
   return at(points, best);
 }
 
+/// Fitted to ever fewer points, so that of two planes of nearly the same height the one with more points remains.
 FlatPart flatPart(const ThinnedScene& scene, InfinitePlane plane, double tolerance,
                   const std::vector<char>& is_searched) {
   FlatPart part;
-  double band = tolerance;
-  for (int i = 0; i <= refits; ++i) {
-    part.points = connectedPart(scene, plane, band, is_searched);
-    if (part.points.size() < 3) return {};
-    const PlaneFit fit = leastSquaresPlane(part.points);
-    const double deviation = std::sqrt(fit.variances[0]);
-    if (i == 0 && deviation > largest_deviation * tolerance) return {};
+  std::size_t nearest = 0;
+  for (const double share : fitted_shares) {
+    const double step = depth_step * double((part.mean - scene.sensor).squaredNorm());
+    const double band = std::max({share * tolerance, nearest > 0 ? step : 0, nearest_band});
+    const std::vector<Eigen::Vector3f> points = connectedPart(scene, plane, band, is_searched);
+    if (points.size() < 3) return {};
+    const PlaneFit fit = leastSquaresPlane(points);
     const bool away = fit.normal.dot(scene.sensor.cast<double>() - fit.mean) < 0;
     part.normal = (away ? Eigen::Vector3d(-fit.normal) : fit.normal).cast<float>();
     part.mean = fit.mean.cast<float>();
     plane = {part.normal, part.normal.dot(part.mean)};
-    const double step = depth_step * double((part.mean - scene.sensor).squaredNorm());
-    band = std::max({nearest_band, step, near_deviations * deviation});
+    nearest = points.size();
   }
-  return part;
+  part.points = connectedPart(scene, plane, tolerance, is_searched);
+  const bool is_curved = double(nearest) < least_nearest * double(part.points.size());
+  return is_curved ? FlatPart() : part;
 }
 
 /// A flat part as a support, with its outline.
@@ -141,14 +146,14 @@ public:
 
   float area() const { return outline_.area(); }
 
-  /// Between 0 and 1, and 0 where the detection does not stand here; less for what ends above the plane.
+  /// Up to 1 for what ends at the plane, and 0 where the detection does not stand here.
   double contact(const Detection& detection) const {
     const Eigen::Vector3f center = detection.T_scene_box.translation().cast<float>();
     const Eigen::Vector3d axes = detection.T_scene_box.linear().transpose() * normal_.cast<double>();
     const double height = double(normal_.dot(center - mean_));
     const double lowest = height - 0.5 * axes.cwiseAbs().dot(detection.box_size);
-    const bool above = height > 0 && lowest < standing_contact && outline_.depth(flat(center)) > -beside;
-    return above ? 1 - std::max(0.0, lowest) / standing_contact : 0;
+    if (height <= 0 || lowest >= standing_contact || outline_.depth(flat(center)) <= -beside) return 0;
+    return lowest > 0 ? 1 - lowest / standing_contact : std::max(least_contact, 1 + lowest / deepest_corner);
   }
 
   /// But for what stands on it.
@@ -212,8 +217,10 @@ std::vector<Candidate> findCandidates(const ThinnedScene& scene, const std::vect
     const FlatPart part = flatPart(scene, found.plane, tolerance.distance, is_searched);
     if (!part.points.empty()) candidates.emplace_back(part);
     if (!part.points.empty() && candidates.back().area() < smallest_support) candidates.pop_back();
+    const InfinitePlane fitted{part.normal, part.normal.dot(part.mean)};
+    const InfinitePlane& plane = part.points.empty() ? found.plane : fitted;
     const auto on_plane = [&](std::uint32_t index) {
-      return found.plane.contains(scene.points[index], scene.normals[index], tolerance);
+      return plane.contains(scene.points[index], scene.normals[index], tolerance);
     };
     searched.erase(std::remove_if(searched.begin(), searched.end(), on_plane), searched.end());
   }
