@@ -67,6 +67,11 @@ void PlanningSceneNode::takeSupport(const Support& support) {
 }
 
 void PlanningSceneNode::follow(const std_msgs::Header& header) {
+  if (header.frame_id.empty()) {
+    ROS_WARN_THROTTLE(30,
+                      "detections come without a frame_id, so that MoveIt cannot tell where they are; set it in what "
+                      "publishes the cloud");
+  }
   const bool is_first = last_.frame_id.empty();
   const bool other_frame = header.frame_id != last_.frame_id;
   const bool jumped_back = header.stamp.toSec() < last_.stamp.toSec() - out_of_order;

@@ -63,11 +63,11 @@ SceneChange SceneObjects::takeSupport(double stamp, const std::optional<SceneBox
   if (!seen) {
     const bool in_scene = support_ && !support_->object.id.empty();
     if (in_scene && stamp - support_->seen_at <= settings_.remove_after) return change;
-    if (in_scene) change.removed.push_back(support_id);
+    if (in_scene) change.removed.emplace_back(support_id);
     support_.reset();
     return change;
   }
-  if (!support_) support_.emplace();
+  if (!support_) support_ = Entry();
   show(*support_, {0, "", *seen}, stamp);
   const bool in_scene = !support_->object.id.empty();
   if (!in_scene && support_->frames < settings_.add_after) return change;

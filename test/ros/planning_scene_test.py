@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """planning_scene_node: what comes into a planning scene, moves in it and goes."""
+import signal
+import subprocess
 import threading
 import unittest
 
@@ -78,18 +80,32 @@ class PlanningSceneTest(unittest.TestCase):
         self.addCleanup(self.detections.unregister)
         self.addCleanup(self.supports.unregister)
         self.stamp = rospy.Time(1000)
+        self.move_group = MoveGroup()
+        self.addCleanup(self.move_group.close)
+        if "launch_file" in self.id():
+            self.launch()
+        else:
+            self.start()
+        support.wait_for(self.connected, "connections of the node")
+
+    def start(self):
         self.node = support.Node("scene", {"add_after": ADD_AFTER, "remove_after": REMOVE_AFTER,
                                            "support_thickness": THICKNESS, **self.parameters()},
                                  ["~detections:=/detector/detections", "~support:=/detector/support"],
                                  executable="planning_scene_node")
-        self.move_group = MoveGroup()
-        self.addCleanup(self.move_group.close)
         self.node.__enter__()
         self.addCleanup(self.node.__exit__)
-        support.wait_for(self.connected, "connections of the node")
+
+    def launch(self):
+        launched = subprocess.Popen(["roslaunch", "sks_detector", "planning_scene.launch", "name:=launched", "add_after:=1",
+                                     "respawn:=false", "support_thickness:=0.1"])
+        self.addCleanup(launched.wait, support.PATIENCE)
+        self.addCleanup(launched.send_signal, signal.SIGINT)
 
     def parameters(self):
-        return {"min_score": 0.6} if "score" in self.id() else {}
+        """What a test of this name wants beside."""
+        wanted = {"low_score": {"min_score": 0.6}, "wrong_parameters": {"add_after": 0, "min_scor": 0.9}}
+        return next((parameters for name, parameters in wanted.items() if name in self.id()), {})
 
     def connected(self):
         return (self.detections.get_num_connections() and self.supports.get_num_connections() and
@@ -220,6 +236,21 @@ class PlanningSceneTest(unittest.TestCase):
         late = MoveGroup()
         self.addCleanup(late.close)
         self.assertEqual(late.wait_for_ids("object_1", "object_2")["object_2"].type.key, "jug")
+
+    def test_the_launch_file_connects_it_with_the_detector(self):
+        self.see(detection())
+        self.see_support(plane())
+        state = self.move_group.wait_for_ids("object_1", "support")
+        self.assertEqual(state["support"].primitives[0].dimensions[2], 0.1)
+
+    def test_wrong_parameters_are_named_and_the_defaults_used(self):
+        self.node.wait_for_output("add_after", "is used")
+        self.node.wait_for_output("min_scor", "min_score")
+        self.settle(detection())
+        rospy.sleep(0.3)
+        self.assertEqual(self.move_group.state(), {})
+        self.see(detection())  # the third
+        self.move_group.wait_for_ids("object_1")
 
     def test_the_node_takes_what_it_added_with_it(self):
         self.settle(detection())

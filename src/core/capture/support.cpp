@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <random>
 #include <utility>
 
@@ -173,7 +172,7 @@ public:
     support.size = {rectangle.length, rectangle.width};
     const Eigen::Isometry3d T_plane_scene = support.T_scene_plane.inverse();
     for (const Eigen::Vector2f& corner : outline_.corners()) {
-      support.outline.push_back((T_plane_scene * spatial(corner)).head<2>());
+      support.outline.emplace_back((T_plane_scene * spatial(corner)).head<2>());
     }
     return support;
   }
@@ -261,7 +260,7 @@ std::optional<Support> findSupport(const Cloud& cloud, const std::vector<Detecti
     return std::nullopt;
   }
   if (!detections.empty()) {
-    const std::optional<Support> around = bestOf(findCandidates(scene, &detections), detections);
+    std::optional<Support> around = bestOf(findCandidates(scene, &detections), detections);
     if (around && around->standing > 0) return around;
   }
   return bestOf(findCandidates(scene, nullptr), detections);
