@@ -5,6 +5,7 @@
 
 #include <ros/console.h>
 #include <ros/init.h>
+#include <ros/single_subscriber_publisher.h>
 
 #include "core/settings/settings_table.hpp"
 #include "planning_scene/scene_messages.hpp"
