@@ -18,13 +18,30 @@ else()
   message(STATUS "${PROJECT_NAME} is built without its camera nodelet: it needs `apt-get install libopenni2-dev`")
 endif()
 
+# Topics of the detector in messages that not everybody has, so that package.xml does not name them; src/ros/outputs has a
+# file for each package.
+set(sks_output_include_dirs)
+foreach(package vision_msgs jsk_recognition_msgs)
+  #catkin_lint: ignore_once missing_depend
+  find_package(${package} QUIET)
+  if(${package}_FOUND)
+    list(APPEND ros_sources src/ros/outputs/${package}.cpp)
+    list(APPEND sks_output_include_dirs ${${package}_INCLUDE_DIRS})
+  else()
+    string(REPLACE "_" "-" package_name ${package})
+    message(STATUS "${PROJECT_NAME} is built without its topic for ${package}, which is missing: with ROS Noetic "
+      "`apt-get install ros-noetic-${package_name}`")
+  endif()
+endforeach()
+
 # What the nodelets are made of: tests link it.
 add_library(${PROJECT_NAME}_ros SHARED ${ros_sources})
 add_dependencies(${PROJECT_NAME}_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 target_include_directories(${PROJECT_NAME}_ros PUBLIC src)
 #catkin_lint: ignore_once external_directory external_interface_path
 target_include_directories(${PROJECT_NAME}_ros SYSTEM PUBLIC
-  ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
+  ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS}
+  ${sks_output_include_dirs})
 target_link_libraries(${PROJECT_NAME}_ros PUBLIC sks_build_flags ${PROJECT_NAME}_core ${PROJECT_NAME}_simulation
   ${catkin_LIBRARIES} PRIVATE sks_drawing)
 sks_precompile(${PROJECT_NAME}_ros <ros/node_handle.h> <sensor_msgs/PointCloud2.h>)
@@ -49,6 +66,8 @@ foreach(source ${ros_executables})
     INSTALL_RPATH "\$ORIGIN/${sks_bin_to_lib}")
   install(TARGETS ${name} RUNTIME DESTINATION ${sks_bin_dir})
 endforeach()
+
+include(cmake/PlanningScene.cmake)
 
 install(TARGETS ${sks_ros_libraries} ${PROJECT_NAME}_nodelets
   ARCHIVE DESTINATION ${sks_lib_dir}

@@ -9,7 +9,18 @@
 namespace sks_detector {
 namespace {
 
-geometry_msgs::Pose poseMessage(const Eigen::Isometry3d& pose) {
+/// Nothing where the quaternion is zero.
+std::optional<Eigen::Isometry3d> poseOf(const geometry_msgs::Pose& message) {
+  const auto& q = message.orientation;
+  Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
+  if (rotation.norm() == 0) return std::nullopt;
+  rotation.normalize();
+  return Eigen::Translation3d(message.position.x, message.position.y, message.position.z) * rotation;
+}
+
+}  // namespace
+
+geometry_msgs::Pose toMessage(const Eigen::Isometry3d& pose) {
   const Eigen::Quaterniond rotation(pose.linear());
   geometry_msgs::Pose message;
   message.position.x = pose.translation().x();
@@ -22,23 +33,12 @@ geometry_msgs::Pose poseMessage(const Eigen::Isometry3d& pose) {
   return message;
 }
 
-/// Nothing where the quaternion is zero.
-std::optional<Eigen::Isometry3d> poseOf(const geometry_msgs::Pose& message) {
-  const auto& q = message.orientation;
-  Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
-  if (rotation.norm() == 0) return std::nullopt;
-  rotation.normalize();
-  return Eigen::Translation3d(message.position.x, message.position.y, message.position.z) * rotation;
-}
-
-}  // namespace
-
 Detection toMessage(const sks::Detection& detection) {
   Detection message;
   message.object = detection.object;
   message.score = float(detection.score);
-  message.pose.pose = poseMessage(detection.T_scene_model);
-  message.box_center = poseMessage(detection.T_scene_box);
+  message.pose.pose = toMessage(detection.T_scene_model);
+  message.box_center = toMessage(detection.T_scene_box);
   message.box_size.x = detection.box_size.x();
   message.box_size.y = detection.box_size.y();
   message.box_size.z = detection.box_size.z();

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <geometry_msgs/Pose.h>
 #include <sks_detector/Detection.h>
 #include <sks_detector/detection.hpp>
 
 namespace sks_detector {
+
+geometry_msgs::Pose toMessage(const Eigen::Isometry3d& pose);
 
 /// What the core found, as a message; the covariance is left at 0 (unknown).
 Detection toMessage(const sks::Detection& detection);

@@ -19,6 +19,7 @@
 #include "ros/cloud_message.hpp"
 #include "ros/detection_frame.hpp"
 #include "ros/master_access.hpp"
+#include "ros/support_message.hpp"
 
 namespace sks_detector {
 namespace {
@@ -79,6 +80,8 @@ DetectionOutput::DetectionOutput(ros::NodeHandle& private_handle, std::function<
   keypoints_ = private_handle.advertise<sensor_msgs::PointCloud2>("keypoints", 1, changed, changed);
   votes_ = private_handle.advertise<sensor_msgs::PointCloud2>("votes", 1, changed, changed);
   picture_ = private_handle.advertise<sensor_msgs::Image>("image_overlay", 1, changed, changed);
+  support_ = private_handle.advertise<Support>("support", 1, changed, changed);
+  for (const MakeResultOutput& make : resultOutputs()) further_.push_back(make(private_handle, changed));
   keep_markers_ =
       private_handle.createTimer(ros::Duration(marker_period), [this](const ros::TimerEvent&) { keepMarkers(); });
 }
@@ -92,18 +95,21 @@ DetectionOutput::~DetectionOutput() {
 
 bool DetectionOutput::listened() const {
   const FrameExtras extras = wantedExtras();
-  return extras.inspection || extras.picture || poses_.listened() || detections_.getNumSubscribers() > 0 ||
-         markers_.getNumSubscribers() > 0;
+  return extras.inspection || extras.picture || extras.support || poses_.listened() ||
+         detections_.getNumSubscribers() > 0 || markers_.getNumSubscribers() > 0 ||
+         std::any_of(further_.begin(), further_.end(), [](const auto& output) { return output->listened(); });
 }
 
 FrameExtras DetectionOutput::wantedExtras() const {
-  return {keypoints_.getNumSubscribers() > 0 || votes_.getNumSubscribers() > 0, picture_.getNumSubscribers() > 0};
+  return {keypoints_.getNumSubscribers() > 0 || votes_.getNumSubscribers() > 0, picture_.getNumSubscribers() > 0,
+          support_.getNumSubscribers() > 0};
 }
 
 void DetectionOutput::publish(const FrameResult& result, const NodeSettings& settings) {
   const DetectionArray& detections = result.detections;
   detections_.publish(detections);
   poses_.publish(detections);
+  for (const auto& output : further_) output->publish(detections, result.places);
   {
     const std::lock_guard<std::mutex> lock(shown_mutex_);
     shown_ = detections;
@@ -113,6 +119,9 @@ void DetectionOutput::publish(const FrameResult& result, const NodeSettings& set
   publishCloud(keypoints_, result.keypoints, result.T_target_cloud, detections.header);
   publishCloud(votes_, result.votes, result.T_target_cloud, detections.header);
   publishPicture(picture_, result.picture, result.picture_header);
+  if (result.support_sought && support_.getNumSubscribers() > 0) {
+    support_.publish(toMessage(result.support, result.T_target_cloud, detections.header));
+  }
   if (settings.publish_tf) broadcastPoses(detections, settings);
 }
 

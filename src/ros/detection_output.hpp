@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -16,12 +17,13 @@
 #include "ros/markers.hpp"
 #include "ros/node_settings.hpp"
 #include "ros/pose_output.hpp"
+#include "ros/result_output.hpp"
 
 namespace sks_detector {
 
 /// What the node publishes of each frame: `~detections`, `~poses`, `~objects/<name>/pose`, `~markers`,
-/// `~image_overlay`, `~keypoints`, `~votes` and /tf. Safe to use from
-/// several threads.
+/// `~image_overlay`, `~keypoints`, `~votes`, `~support` and
+/// /tf, and what resultOutputs() has. Safe to use from several threads.
 class DetectionOutput {
 public:
   /// @param listeners_changed called from the callback queue when somebody came to listen or left
@@ -56,7 +58,9 @@ private:
   ros::Publisher keypoints_;
   ros::Publisher votes_;
   ros::Publisher picture_;
+  ros::Publisher support_;
   PoseOutput poses_;
+  std::vector<std::unique_ptr<ResultOutput>> further_;
   ros::Timer keep_markers_;
 
   ros::NodeHandle handle_;

@@ -167,6 +167,7 @@ bool DetectorNode::detect(const sensor_msgs::PointCloud2& cloud, const NodeSetti
   }
   result.detections.header = FrameDetector::answerHeader(cloud.header, settings);
   result.detections.codebook = slot_.codebookName();
+  result.support_sought = true;  // and none found
   return false;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/frame_detector.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include <sks_detector/error.hpp>
@@ -30,6 +31,10 @@ std::vector<sks::Rgb> voteColors(const sks::Inspection& inspection) {
   std::vector<sks::Rgb> colors;
   for (const std::uint32_t object : inspection.vote_objects) colors.push_back(sks::paletteColor(object));
   return colors;
+}
+
+std::uint32_t placeOf(const std::string& object, const std::vector<std::string>& objects) {
+  return std::uint32_t(std::find(objects.begin(), objects.end(), object) - objects.begin());
 }
 
 /// As `sks detect --image` draws it, in the size of most depth images.
@@ -99,10 +104,13 @@ FrameResult FrameDetector::detect(const sensor_msgs::PointCloud2& message, const
   result.votes.colors = voteColors(inspection);
   const std::vector<std::string>& objects = used->codebook().objects;
   if (extras.picture) result.picture = draw(cloud, T_cloud_sensor, found, objects);
+  result.support_sought = extras.support;
+  if (extras.support) result.support = sks::findSupport(cloud, found, used->settings().sanitize);
   for (sks::Detection& detection : found) {
     transform(result.T_target_cloud, detection);
     result.detections.detections.push_back(toMessage(detection));
     result.colors.push_back(sks::objectColor(objects, detection.object));
+    result.places.push_back(placeOf(detection.object, objects));
   }
   return result;
 }
@@ -143,8 +151,11 @@ FrameResult FrameDetector::follow(const sensor_msgs::PointCloud2& message, const
     result.detections.detections.back().id = object.id;
     result.detections.detections.back().tracked = true;
     result.colors.push_back(sks::objectColor(objects, detection.object));
+    result.places.push_back(placeOf(detection.object, objects));
   }
   if (extras.picture) result.picture = draw(*cloud, T_cloud_sensor, shown, objects);
+  result.support_sought = extras.support;
+  if (extras.support) result.support = sks::findSupport(*cloud, shown, used->settings().sanitize);
   return result;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include <sks_detector/cloud.hpp>
 #include <sks_detector/codebook.hpp>
 #include <sks_detector/detector.hpp>
+#include <sks_detector/support.hpp>
 #include <sks_detector/tracker.hpp>
 
 #include "io/image_file.hpp"
@@ -27,6 +30,7 @@ namespace sks_detector {
 struct FrameExtras {
   bool inspection = false;  ///< keypoints and votes
   bool picture = false;
+  bool support = false;  ///< the plane that things stand on
 };
 
 /// What one cloud led to.
@@ -36,7 +40,10 @@ struct FrameResult {
   sks::Cloud votes;           ///< in the cloud's frame, in the colours of their objects
   sks::ColorImage picture;    ///< of the cloud with what was found, as its camera sees it; empty where not asked for
   std_msgs::Header picture_header;  ///< of the camera's frame
-  std::vector<sks::Rgb> colors;     ///< of each detection: that of its object in the codebook
+  bool support_sought = false;
+  std::optional<sks::Support> support;  ///< in the cloud's frame; empty where there is none, or it was not sought
+  std::vector<sks::Rgb> colors;         ///< of each detection: that of its object in the codebook
+  std::vector<std::uint32_t> places;    ///< of each detection: that of its object in the codebook
   Eigen::Isometry3d T_target_cloud = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d T_target_sensor = Eigen::Isometry3d::Identity();  ///< the camera: x right, y down, z forward
   std::string warning;  ///< what did not work as it was asked for; else empty

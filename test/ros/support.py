@@ -176,15 +176,16 @@ def threads_of(process):
 
 
 class Node:
-    """detector_node in a process of its own, with its output; ends it when the `with` block is left."""
+    """detector_node, or another executable, in a process of its own, with its output; ends it when the `with` block is
+    left."""
 
-    def __init__(self, name="detector", parameters=None, arguments=(), environment=None):
+    def __init__(self, name="detector", parameters=None, arguments=(), environment=None, executable="detector_node"):
         self.name = name
         for key, value in (parameters or {}).items():
             rospy.set_param("/%s/%s" % (name, key), value)
         self._lines = []
         self._process = subprocess.Popen(
-            ["rosrun", "sks_detector", "detector_node", "__name:=" + name, "~points:=/points", *arguments],
+            ["rosrun", "sks_detector", executable, "__name:=" + name, "~points:=/points", *arguments],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, env=environment)
         self._reader = threading.Thread(target=self._read)
         self._reader.start()
