@@ -9,6 +9,8 @@
 namespace sks_detector {
 namespace {
 
+using RowMajor6d = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;  // as messages have it
+
 /// Nothing where the quaternion is zero.
 std::optional<Eigen::Isometry3d> poseOf(const geometry_msgs::Pose& message) {
   const auto& q = message.orientation;
@@ -38,6 +40,7 @@ Detection toMessage(const sks::Detection& detection) {
   message.object = detection.object;
   message.score = float(detection.score);
   message.pose.pose = toMessage(detection.T_scene_model);
+  Eigen::Map<RowMajor6d>(message.pose.covariance.data()) = detection.covariance;
   message.box_center = toMessage(detection.T_scene_box);
   message.box_size.x = detection.box_size.x();
   message.box_size.y = detection.box_size.y();
@@ -59,6 +62,8 @@ sks::Detection toDetection(const Detection& message) {
   detection.score = double(message.score);
   detection.view = message.view;
   detection.T_scene_model = pose.value_or(box.value_or(Eigen::Isometry3d::Identity()));
+  const Eigen::Map<const RowMajor6d> covariance(message.pose.covariance.data());
+  if (covariance.allFinite()) detection.covariance = covariance;
   detection.T_scene_box = box.value_or(detection.T_scene_model);
   detection.box_size = {message.box_size.x, message.box_size.y, message.box_size.z};
   detection.votes = message.votes;

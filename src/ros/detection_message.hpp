@@ -9,7 +9,7 @@ namespace sks_detector {
 
 geometry_msgs::Pose toMessage(const Eigen::Isometry3d& pose);
 
-/// What the core found, as a message; the covariance is left at 0 (unknown).
+/// What the core found, as a message; a covariance of zeros: not known.
 Detection toMessage(const sks::Detection& detection);
 
 /// The other way round. A pose or box whose quaternion is zero was never set: the one stands in for the other.

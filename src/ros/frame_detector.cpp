@@ -18,6 +18,9 @@ namespace {
 void transform(const Eigen::Isometry3d& T_target_cloud, sks::Detection& detection) {
   detection.T_scene_model = T_target_cloud * detection.T_scene_model;
   detection.T_scene_box = T_target_cloud * detection.T_scene_box;
+  Eigen::Matrix<double, 6, 6> turned = Eigen::Matrix<double, 6, 6>::Zero();
+  turned.topLeftCorner<3, 3>() = turned.bottomRightCorner<3, 3>() = T_target_cloud.linear();
+  detection.covariance = turned * detection.covariance * turned.transpose();
 }
 
 sks::Cloud pointsCloud(std::vector<Eigen::Vector3f> points) {

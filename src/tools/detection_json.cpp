@@ -13,6 +13,15 @@ nlohmann::json boxJson(const Detection& detection) {
           {"size", vectorJson(detection.box_size)}};
 }
 
+/// Of x, y, z [m^2] and rotations about these axes [rad^2], row by row, as in geometry_msgs/PoseWithCovariance.
+nlohmann::json covarianceJson(const Detection& detection) {
+  nlohmann::json json = nlohmann::json::array();
+  for (int row = 0; row < 6; ++row) {
+    for (int column = 0; column < 6; ++column) json.push_back(detection.covariance(row, column));
+  }
+  return json;
+}
+
 }  // namespace
 
 nlohmann::json detectionJson(const Detection& detection) {
@@ -20,6 +29,7 @@ nlohmann::json detectionJson(const Detection& detection) {
           {"score", detection.score},
           {"position", vectorJson(detection.position())},
           {"pose", poseJson(detection.T_scene_model)},
+          {"covariance", covarianceJson(detection)},
           {"box", boxJson(detection)},
           {"view", detection.view},
           {"density", detection.density},

@@ -5,6 +5,8 @@
 
 #include <sks_detector/error.hpp>
 
+#include "core/verification/pose_information.hpp"
+
 namespace sks {
 
 Detection toDetection(const Codebook& codebook, const Hypothesis& hypothesis, double score) {
@@ -20,6 +22,8 @@ Detection toDetection(const Codebook& codebook, const Hypothesis& hypothesis, do
   detection.T_scene_model = hypothesis.T_scene_model;
   detection.T_scene_box = hypothesis.T_scene_box;
   detection.box_size = hypothesis.box_size;
+  detection.covariance = covarianceInScene(hypothesis.covariance, hypothesis.T_scene_model,
+                                           codebook.views[hypothesis.view].center().cast<double>());
   detection.density = hypothesis.density;
   detection.evidence = hypothesis.evidence;
   detection.votes = hypothesis.votes;

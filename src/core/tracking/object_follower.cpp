@@ -8,6 +8,7 @@
 
 #include "core/pipeline/scene_description.hpp"
 #include "core/tracking/object_crop.hpp"
+#include "core/verification/pose_information.hpp"
 #include "core/verification/projective_refinement.hpp"
 #include "core/verification/refinement.hpp"
 #include "core/verification/standing_things.hpp"
@@ -30,10 +31,6 @@ Settings oneThread(Settings settings) {
 }
 
 }  // namespace
-
-double depthNoise(double range) {
-  return 0.0012 + 0.0019 * (range - 0.4) * (range - 0.4);
-}
 
 ObjectFollower::ObjectFollower(std::shared_ptr<const VerifiedModels> models, const Settings& settings)
     : models_(std::move(models)), settings_(oneThread(settings)), no_votes_(models_->codebook->objects.size()) {}
@@ -81,6 +78,7 @@ FollowedObject ObjectFollower::follow(const Cloud& cloud, const Hypothesis& expe
   if (look == Look::full) {
     best = examiner.examine(std::move(best.hypothesis), &pose);
     followed.color_shift = best.lines.color_shift;
+    best.hypothesis.covariance = examiner.covarianceOf(best.hypothesis);
   } else {
     const TrainingView& nearest = codebook.views[best.hypothesis.view];
     pose = examinePose(nearest, models_->weights.at(best.hypothesis.view, strideFor(nearest, glance_points)), scene,

@@ -30,10 +30,6 @@ enum class Look {
   full    ///< by all points, as a detection is
 };
 
-/// Standard deviation of a depth that a structured-light or stereo camera measures at a range [m] (Nguyen, Izadi,
-/// Lovell 2012, eq. 1, for surfaces that face the camera).
-double depthNoise(double range);
-
 /// Finds objects again near to where they are expected, in the part of a cloud around them, by the same refinement and
 /// the same evidence as a detection (docs/method.md, sections 10 and 11). Immutable once built; thread-safe.
 class ObjectFollower {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/verification/pose_information.hpp"
 #include "core/verification/score.hpp"
 
 namespace sks {

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/tracking/tracker_state.hpp"
+#include "core/verification/pose_information.hpp"
 
 namespace sks {
 namespace {
@@ -28,6 +29,7 @@ Hypothesis Tracker::State::hypothesisOf(const Detection& detection) const {
   hypothesis.T_scene_model = detection.T_scene_model;
   hypothesis.T_scene_box = detection.T_scene_box;
   hypothesis.box_size = detection.box_size;
+  hypothesis.covariance = covarianceInModel(detection.covariance, detection.T_scene_model, centerOf(hypothesis.view));
   hypothesis.density = detection.density;
   hypothesis.evidence = detection.evidence;
   hypothesis.votes = detection.votes;

@@ -3,8 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/verification/pose_evidence.hpp"
-#include "core/verification/surface_sample.hpp"
+#include "core/verification/pose_information.hpp"
 
 namespace sks {
 
@@ -13,9 +12,6 @@ namespace sks {
 /// would else follow the noise of the normals, and leaves all others as they are.
 class MotionPrior {
 public:
-  using Matrix6d = Eigen::Matrix<double, 6, 6>;
-  using Vector6d = Eigen::Matrix<double, 6, 1>;
-
   /// @param surface some of the object's points, `area` for each [m^2]
   /// @param reach farthest that they are from the scene's [m]
   /// @param noise standard deviation of depth there [m]

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/surface/angular_spacing.hpp"
+#include "core/verification/pose_information.hpp"
 #include "core/verification/refinement.hpp"
 #include "core/verification/turned_poses.hpp"
 
@@ -201,6 +202,26 @@ std::vector<Hypothesis> PoseExaminer::turnedAround(const Hypothesis& hypothesis)
 }
 
 Hypothesis PoseExaminer::finished(const Hypothesis& hypothesis) const {
+  Hypothesis best = bestFitted(hypothesis);
+  best.covariance = covarianceOf(best);
+  return best;
+}
+
+Matrix6d PoseExaminer::covarianceOf(const Hypothesis& hypothesis) const {
+  thread_local SurfaceSample sample;  // keeps its buffers from pose to pose
+  const TrainingView& view = codebook_.views[hypothesis.view];
+  const std::size_t stride = strideFor(view, last_points);
+  sample.take(view, stride);
+  const double resolution = settings_.training.surface_resolution;
+  const Eigen::Vector3d center = view.center().cast<double>();
+  const double range = (hypothesis.T_scene_model * center - scene_.surface.sensor_origin.cast<double>()).norm();
+  const PoseInformation information(sample, double(stride) * resolution * resolution, scene_,
+                                    settings_.refinement.end_distance, hypothesis.T_scene_model);
+  return poseCovariance(information, depthNoise(range), hypothesis.T_scene_model, center,
+                        double(view.extent().maxCoeff()));
+}
+
+Hypothesis PoseExaminer::bestFitted(const Hypothesis& hypothesis) const {
   const TrainingView& view = codebook_.views[hypothesis.view];
   const bool registered = models_.surfaces[hypothesis.view]->views.size() > 1;
   if (!registered && view.kind != ViewKind::model) return hypothesis;  // a single view gets no more exact

@@ -77,10 +77,15 @@ public:
   /// the sensor's rays, where colours are compared with just what was seen. Only where a model is known from all sides.
   Hypothesis bestTurned(const Hypothesis& hypothesis) const;
   /// The pose of an examined hypothesis fitted by many points of the whole model, where the model is known from all
-  /// sides; where no colours are compared, the best of those turned as in bestTurned(). Its evidence stays.
+  /// sides; where no colours are compared, the best of those turned as in bestTurned(). Its evidence stays. With the
+  /// covariance of the pose.
   Hypothesis finished(const Hypothesis& hypothesis) const;
 
+  /// Hypothesis::covariance of a pose.
+  Eigen::Matrix<double, 6, 6> covarianceOf(const Hypothesis& hypothesis) const;
+
 private:
+  Hypothesis bestFitted(const Hypothesis& hypothesis) const;
   Hypothesis fitted(Hypothesis hypothesis) const;
   /// Of a pose and those turned around it, after a fit, that which agrees most.
   template <typename Fit, typename Agreement>

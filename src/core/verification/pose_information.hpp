@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "core/verification/pose_evidence.hpp"
+#include "core/verification/surface_sample.hpp"
+
+namespace sks {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+/// Standard deviation of a depth that a structured-light or stereo camera measures at a range [m] (Nguyen, Izadi,
+/// Lovell 2012, eq. 1, for surfaces that face the camera).
+double depthNoise(double range);
+
+/// How exactly a cloud tells small motions of an object, from the pairs of point-to-plane ICP.
+struct PoseInformation {
+  /// @param surface some of the object's points, `area` for each [m^2]
+  /// @param reach farthest that they are from the scene's [m]
+  PoseInformation(const SurfaceSample& surface, double area, const SceneView& scene, double reach,
+                  const Eigen::Isometry3d& T_scene_model);
+
+  Eigen::Vector3d pivot;  ///< that motions turn about, scene frame [m]
+  double radius = 1;      ///< [m] turns times this are as long as shifts
+  /// Of a motion (rotation vector times the radius, shift): inverse of its covariance where depth has a standard
+  /// deviation of 1. Symmetric; where surfaces tell nothing of a motion some of its eigenvalues are about 0.
+  Matrix6d matrix;
+};
+
+/// Covariance of a pose: shift of the centre of the box [m], and rotation vector, along the axes of the model.
+/// Motions that the cloud does not tell have the deviation of what is possible: as large as the object, or any turn.
+/// @param center of the box, model frame [m] @param size largest extent of the box [m]
+/// @param noise standard deviation of depth [m]
+Matrix6d poseCovariance(const PoseInformation& information, double noise, const Eigen::Isometry3d& T_scene_model,
+                        const Eigen::Vector3d& center, double size);
+
+/// The same of the pose as it is told: shift of the origin of the model, and rotation vector, along the axes of the
+/// scene; and back.
+Matrix6d covarianceInScene(const Matrix6d& in_model, const Eigen::Isometry3d& T_scene_model,
+                           const Eigen::Vector3d& center);
+Matrix6d covarianceInModel(const Matrix6d& in_scene, const Eigen::Isometry3d& T_scene_model,
+                           const Eigen::Vector3d& center);
+
+}  // namespace sks
