@@ -22,6 +22,7 @@ using rviz::StatusProperty;
 
 constexpr const char* default_topic = "/detector/detections";
 constexpr int by_object = 0, by_score = 1;  // the options of "Color By"
+constexpr double transform_patience = 0.5;  // [s] for which a transform may be late without a word
 constexpr int most_at_once = 10000;         // boxes; more would stop the window for seconds
 
 }  // namespace
@@ -63,6 +64,7 @@ DetectionsDisplay::~DetectionsDisplay() = default;
 
 void DetectionsDisplay::onInitialize() {
   MFDClass::onInitialize();
+  sub_.registerCallback(&DetectionsDisplay::noteArrival, this);
   topic_property_->setValue(default_topic);
   styleChanged();
 }
@@ -70,6 +72,7 @@ void DetectionsDisplay::onInitialize() {
 void DetectionsDisplay::reset() {
   MFDClass::reset();
   array_.reset();
+  waiting_.reset();
   visuals_.clear();
 }
 
@@ -92,7 +95,23 @@ void DetectionsDisplay::unsubscribe() {
   colors_.forget();
 }
 
+void DetectionsDisplay::noteArrival(const DetectionArray::ConstPtr& message) {
+  if (waiting_) return;
+  waiting_ = message;
+  waiting_since_ = ros::WallTime::now();
+}
+
+void DetectionsDisplay::tellWaiting() {
+  if (!waiting_ || (ros::WallTime::now() - waiting_since_).toSec() < transform_patience) return;
+  const std_msgs::Header header = waiting_->header;
+  waiting_.reset();
+  std::string problem;
+  if (!context_->getFrameManager()->transformHasProblems(header.frame_id, header.stamp, problem)) return;
+  setStatusStd(StatusProperty::Error, "Transform", problem);
+}
+
 void DetectionsDisplay::processMessage(const DetectionArray::ConstPtr& message) {
+  waiting_.reset();
   array_ = message;
   received_ = ros::WallTime::now();
   changed_ = true;
@@ -120,6 +139,7 @@ void DetectionsDisplay::update(float /*wall_dt*/, float /*ros_dt*/) {
     setStatus(StatusProperty::Warn, "Detections",
               QString("None came for %1 s: is the node running, and do clouds come?").arg(timeout));
   }
+  tellWaiting();
   if (array_ && changed_) changed_ = !draw();
   if (!visuals_.empty()) turnLabels();
 }
@@ -153,6 +173,7 @@ bool DetectionsDisplay::draw() {
   }
   visuals_ = std::move(visuals);
   tellChoice(chosen);
+  tellColors();
   context_->queueRender();
   return true;
 }

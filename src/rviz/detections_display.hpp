@@ -44,6 +44,9 @@ private Q_SLOTS:
 
 private:
   void processMessage(const DetectionArray::ConstPtr& message) override;
+  /// Of every array, also of those that wait for their transform.
+  void noteArrival(const DetectionArray::ConstPtr& message);
+  void tellWaiting();
   void receiveStatus(const Status::ConstPtr& status);
   /// Makes the Ogre objects those of the current array; false where its frame cannot be transformed.
   bool draw();
@@ -62,6 +65,8 @@ private:
 
   DetectionArray::ConstPtr array_;
   ros::WallTime received_;
+  DetectionArray::ConstPtr waiting_;  // the first of those that came after what is drawn
+  ros::WallTime waiting_since_;
   bool changed_ = false;  // since the last drawing
   ObjectColors colors_;
   DetectionStyle style_;

@@ -67,7 +67,9 @@ void DetectorPanel::connectButtons() {
   connect(objects_, &QTableWidget::cellClicked, this,
           [this](int row, int) { object_->setText(objects_->item(row, 0)->text()); });
   connect(capture_, &QPushButton::clicked, this, [this] {
-    if (objectGiven()) client_.captureView(objectName());
+    if (!objectGiven()) return;
+    showReply(true, "Waiting for the next cloud ...");
+    client_.captureView(objectName());
   });
   connect(undo_, &QPushButton::clicked, this, [this] {
     if (objectGiven()) client_.undoCapture(objectName());
@@ -94,7 +96,11 @@ void DetectorPanel::connectButtons() {
 void DetectorPanel::connectClient() {
   connect(&client_, &NodeClient::reached, this, [this](const QString& problem) {
     answers_ = problem.isEmpty();
-    state_->setText(answers_ ? shownText(describeState(status_)) : problem);
+    if (answers_) {
+      showState();
+    } else {
+      state_->setText(problem);
+    }
     enableButtons();
   });
   connect(&client_, &NodeClient::statusReceived, this, &DetectorPanel::showStatus);
@@ -119,7 +125,7 @@ void DetectorPanel::useNode() {
 }
 
 void DetectorPanel::clear() {
-  answers_ = false;
+  answers_ = has_status_ = false;
   status_ = Status();
   info_ = InfoResponse();
   captured_.clear();
@@ -130,10 +136,16 @@ void DetectorPanel::clear() {
   progress_->reset();
 }
 
+void DetectorPanel::showState() {
+  state_->setText(has_status_ ? shownText(describeState(status_))
+                              : "it answers, but nothing has come on its ~status yet");
+}
+
 void DetectorPanel::showStatus(const Status& status) {
   const bool other_objects = status.objects != status_.objects || status.captured != status_.captured;
   status_ = status;
-  if (answers_) state_->setText(shownText(describeState(status)));
+  has_status_ = true;
+  if (answers_) showState();
   error_->setText(shownText(status.last_error));
   error_->setVisible(!status.last_error.empty());
   if (status.progress.empty()) {
@@ -212,7 +224,6 @@ void DetectorPanel::enableButtons() {
   save_->setEnabled(node && !client_.isBusy(Action::save));
   remove_->setEnabled(node && !client_.isBusy(Action::remove));
   threshold_->setEnabled(answers_);
-  if (client_.isBusy(Action::capture)) showReply(true, "Waiting for the next cloud ...");
 }
 
 std::string DetectorPanel::objectName() const {

@@ -39,6 +39,7 @@ private:
   void connectClient();
 
   void useNode();
+  void showState();
   void showStatus(const Status& status);
   void showInfo(const InfoResponse& info);
   void showCaptured(const QString& object, const CaptureViewResponse& response);
@@ -76,8 +77,9 @@ private:
   QPushButton* train_ = nullptr;
   QPushButton* cancel_ = nullptr;
 
-  QString used_node_;  // as it was given
-  bool answers_ = false;
+  QString used_node_;        // as it was given
+  bool answers_ = false;     // the node
+  bool has_status_ = false;  // of it
   Status status_;
   InfoResponse info_;
   std::map<std::string, std::string> captured_;  // what is known of objects' captured views

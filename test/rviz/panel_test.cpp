@@ -27,8 +27,8 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr int patience = 20000;  // [ms] far longer than anything takes
-constexpr int soon = 8000;       // [ms] within which a node that is away has to be said
+constexpr int panel_patience = 20000;  // [ms] far longer than anything takes
+constexpr int panel_soon = 8000;       // [ms] within which a node that is away has to be said
 
 class PanelTest : public ::testing::Test {
 protected:
@@ -46,10 +46,10 @@ protected:
   }
 
   template <typename Condition>
-  static bool until(Condition condition, int limit = patience) {
+  static bool until(Condition condition, int limit = panel_patience) {
     return QTest::qWaitFor([&] { return bool(condition()); }, limit);
   }
-  bool untilText(const char* label, const std::string& wanted, int limit = patience) {
+  bool untilText(const char* label, const std::string& wanted, int limit = panel_patience) {
     return until([&] { return text(label).find(wanted) != std::string::npos; }, limit);
   }
 
@@ -209,23 +209,23 @@ TEST_F(PanelTest, ThresholdFollowsTheNodeAndIsSet) {
 }
 
 TEST_F(PanelTest, SaysThatANodeIsAway) {
-  EXPECT_TRUE(untilText("state", "there is no service /detector/info", soon)) << text("state");
+  EXPECT_TRUE(untilText("state", "there is no service /detector/info", panel_soon)) << text("state");
   part<QLineEdit>("object")->setText("mug");
   click("capture");
-  EXPECT_TRUE(untilText("reply", "there is no service /detector/capture_view", soon)) << text("reply");
+  EXPECT_TRUE(untilText("reply", "there is no service /detector/capture_view", panel_soon)) << text("reply");
   EXPECT_TRUE(part<QPushButton>("capture")->isEnabled());
   {
     const StubNode node;
-    EXPECT_TRUE(untilText("state", "no codebook", soon)) << text("state");
+    EXPECT_TRUE(untilText("state", "no codebook", panel_soon)) << text("state");
   }
-  EXPECT_TRUE(untilText("state", "/detector/info", soon)) << text("state");
+  EXPECT_TRUE(untilText("state", "/detector/info", panel_soon)) << text("state");
 }
 
 TEST_F(PanelTest, SaysThatANodeHangs) {
   StubNode node;
   ASSERT_TRUE(untilText("state", "no codebook"));
   node.setHanging(true);
-  EXPECT_TRUE(untilText("state", "did not answer within 5 s", 2 * soon)) << text("state");
+  EXPECT_TRUE(untilText("state", "did not answer within 5 s", 2 * panel_soon)) << text("state");
   node.setHanging(false);
   EXPECT_TRUE(untilText("state", "no codebook"));
 }

@@ -88,6 +88,7 @@ StubNode::StubNode(const std::string& name) : handle_(name), spinner_(stub_threa
         return true;
       };
   services_.push_back(handle_.advertiseService("set_parameters", reconfigure));
+  status_.publish(Status());
   spinner_.start();
 }
 
