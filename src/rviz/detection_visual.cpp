@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <OgreRenderQueue.h>
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 #include <rviz/display_context.h>
@@ -24,6 +25,7 @@ constexpr float edge_width = 0.015F;                      // of the longest side
 constexpr float thinnest_edge = 0.002F;                   // [m]
 constexpr float axis_length = 0.6F, axis_radius = 0.02F;  // of the longest side, of the axis
 constexpr float thinnest_axis = 0.001F;                   // [m]
+constexpr float shadow_offset = 0.05F;                    // of a label's height
 constexpr std::size_t longest_label = 60;                 // bytes
 
 Ogre::Vector3 vectorOf(const Eigen::Vector3d& v) {
@@ -58,6 +60,7 @@ DetectionVisual::~DetectionVisual() {
   selection_.reset();  // while what it watches is there
   label_node_->detachAllObjects();
   label_.reset();
+  shadow_.reset();
   axes_.reset();
   faces_.reset();
   edges_.reset();
@@ -90,18 +93,26 @@ void DetectionVisual::show(const ShownDetection& shown, const Detection& message
   axes_->set(length, std::max(thinnest_axis, axis_radius * length));
   axes_->getSceneNode()->setVisible(style.axes != DetectionStyle::Axes::none);
 
-  const std::string text =
-      sks::shown(shown.detection.object, longest_label) + sks::formatted(" %.2f", shown.detection.score);
-  if (!label_) {
-    label_ = std::make_unique<rviz::MovableText>(text);
-    label_->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_ABOVE);
-    label_node_->attachObject(label_.get());
-  }
-  label_->setCaption(text);
-  label_->setColor(color);
-  label_->setVisible(style.labels);
-
+  drawLabel(sks::shown(shown.detection.object, longest_label) + sks::formatted(" %.2f", shown.detection.score), color,
+            style.labels);
   selection_->show(message);
+}
+
+void DetectionVisual::drawLabel(const std::string& text, const Ogre::ColourValue& color, bool visible) {
+  if (!label_) {
+    for (std::unique_ptr<rviz::MovableText>* part : {&shadow_, &label_}) {
+      *part = std::make_unique<rviz::MovableText>(text);
+      (*part)->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_ABOVE);
+      label_node_->attachObject(part->get());
+    }
+    shadow_->setColor(Ogre::ColourValue::Black);
+    label_->setRenderQueueGroup(Ogre::RENDER_QUEUE_MAIN + 1);  // after its shadow
+  }
+  label_->setColor(color);
+  for (rviz::MovableText* part : {shadow_.get(), label_.get()}) {
+    part->setCaption(text);
+    part->setVisible(visible);
+  }
 }
 
 void DetectionVisual::drawEdges(const Ogre::Vector3& size, const Ogre::ColourValue& color) {
@@ -137,6 +148,8 @@ void DetectionVisual::turnLabel(const LabelView& view, const DetectionStyle& sty
   const double forward = std::min(reach(toward), 0.5 * distance);
   label_node_->setPosition(vectorOf(center + (reach(up) + 0.5 * height) * up + forward * toward));
   label_node_->setScale(Ogre::Vector3(float(height)));
+  const float offset = shadow_offset * float(height);
+  if (shadow_) shadow_->setLocalTranslation(Ogre::Vector3(offset, -offset, 0));
 }
 
 }  // namespace sks_detector

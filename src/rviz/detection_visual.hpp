@@ -56,6 +56,7 @@ public:
   void turnLabel(const LabelView& view, const DetectionStyle& style);
 
 private:
+  void drawLabel(const std::string& text, const Ogre::ColourValue& color, bool visible);
   void drawEdges(const Ogre::Vector3& size, const Ogre::ColourValue& color);
 
   Ogre::SceneManager& scene_;
@@ -65,6 +66,7 @@ private:
   std::unique_ptr<rviz::Shape> faces_;
   std::unique_ptr<rviz::Axes> axes_;
   std::unique_ptr<rviz::MovableText> label_;
+  std::unique_ptr<rviz::MovableText> shadow_;  // of the label, which can be read before any background
   std::unique_ptr<DetectionSelection> selection_;
   Eigen::Isometry3d T_scene_box_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d box_size_ = Eigen::Vector3d::Zero();

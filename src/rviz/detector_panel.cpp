@@ -137,8 +137,10 @@ void DetectorPanel::clear() {
 }
 
 void DetectorPanel::showState() {
-  state_->setText(has_status_ ? shownText(describeState(status_))
-                              : "it answers, but nothing has come on its ~status yet");
+  const std::string state = has_status_ ? describeState(status_) : "it answers, but nothing came on its ~status yet";
+  const std::string& node = client_.node();
+  const bool same_name = used_node_.trimmed().toStdString() == node;
+  state_->setText(shownText(same_name ? state : state + " (" + node + ")"));
 }
 
 void DetectorPanel::showStatus(const Status& status) {

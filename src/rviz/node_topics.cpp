@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rviz/node_topics.hpp"
 
+#include <mutex>
+
 #include <boost/function.hpp>
 
 namespace sks_detector {
@@ -8,6 +10,13 @@ namespace {
 
 constexpr std::uint32_t status_queue = 10;
 constexpr std::uint32_t detections_queue = 100;  // what comes between two looks, as each counts for the rate
+
+/// One thread subscribes or unsubscribes at a time. Else roscpp may tell the master of a new subscription before it
+/// tells it of the end of an old one, and the master then knows of none.
+std::mutex& subscribing() {
+  static std::mutex mutex;
+  return mutex;
+}
 
 }  // namespace
 
@@ -32,9 +41,15 @@ NodeTopics::NodeTopics(const std::string& node) : handle(node) {
       [this](const dynamic_reconfigure::Config::ConstPtr& message) {
         if (on_threshold) readThreshold(*message, on_threshold);
       };
+  const std::lock_guard<std::mutex> lock(subscribing());
   status = handle.subscribe<Status>("status", status_queue, take_status);
   detections = handle.subscribe<DetectionArray>("detections", detections_queue, take_detections);
   parameters = handle.subscribe<dynamic_reconfigure::Config>("parameter_updates", status_queue, take_parameters);
+}
+
+NodeTopics::~NodeTopics() {
+  const std::lock_guard<std::mutex> lock(subscribing());
+  for (ros::Subscriber* subscriber : {&status, &detections, &parameters}) subscriber->shutdown();
 }
 
 }  // namespace sks_detector

@@ -18,6 +18,9 @@ namespace sks_detector {
 /// called in one, and calls the functions from there.
 struct NodeTopics {
   explicit NodeTopics(const std::string& node);
+  ~NodeTopics();
+  NodeTopics(const NodeTopics&) = delete;
+  NodeTopics& operator=(const NodeTopics&) = delete;
 
   /// Passes on what has come since the last call.
   void receive() { queue.callAvailable(ros::WallDuration(0)); }

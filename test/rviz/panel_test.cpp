@@ -288,6 +288,18 @@ TEST_F(PanelTest, TheNodeIsSavedAndCanBeAnother) {
   EXPECT_EQ(second.findChild<QLineEdit*>("node")->text(), "/other");
 }
 
+TEST_F(PanelTest, ANodeThatComesLaterIsHeard) {
+  rviz::Config config;
+  panel_->save(config);
+  for (int run = 1; run < 6; ++run) {
+    panel_->load(config);  // while the subscriptions of the constructor, or of the last run, are made or ended
+    QTest::qWait(10 * run);
+    StubNode node;
+    node.publishThreshold(0.1 * run);
+    EXPECT_TRUE(untilText("threshold_value", std::to_string(0.1 * run).substr(0, 4))) << run;
+  }
+}
+
 TEST_F(PanelTest, SaysThatANameIsNone) {
   auto* name = part<QLineEdit>("node");
   name->setText("no good name!");
