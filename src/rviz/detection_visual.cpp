@@ -47,6 +47,7 @@ DetectionVisual::DetectionVisual(rviz::DisplayContext& context, Ogre::SceneNode&
     : scene_(*context.getSceneManager()),
       node_(node.createChildSceneNode()),
       label_node_(node_->createChildSceneNode()),
+      shadow_node_(label_node_->createChildSceneNode()),
       edges_(std::make_unique<rviz::BillboardLine>(&scene_, node_)),
       faces_(std::make_unique<rviz::Shape>(rviz::Shape::Cube, &scene_, node_)),
       axes_(std::make_unique<rviz::Axes>(&scene_, node_)),
@@ -58,14 +59,13 @@ DetectionVisual::DetectionVisual(rviz::DisplayContext& context, Ogre::SceneNode&
 
 DetectionVisual::~DetectionVisual() {
   selection_.reset();  // while what it watches is there
-  label_node_->detachAllObjects();
+  for (Ogre::SceneNode* node : {shadow_node_, label_node_}) node->detachAllObjects();
   label_.reset();
   shadow_.reset();
   axes_.reset();
   faces_.reset();
   edges_.reset();
-  scene_.destroySceneNode(label_node_);
-  scene_.destroySceneNode(node_);
+  for (Ogre::SceneNode* node : {shadow_node_, label_node_, node_}) scene_.destroySceneNode(node);
 }
 
 void DetectionVisual::show(const ShownDetection& shown, const Detection& message, const Ogre::ColourValue& color,
@@ -103,8 +103,9 @@ void DetectionVisual::drawLabel(const std::string& text, const Ogre::ColourValue
     for (std::unique_ptr<rviz::MovableText>* part : {&shadow_, &label_}) {
       *part = std::make_unique<rviz::MovableText>(text);
       (*part)->setTextAlignment(rviz::MovableText::H_CENTER, rviz::MovableText::V_ABOVE);
-      label_node_->attachObject(part->get());
     }
+    label_node_->attachObject(label_.get());
+    shadow_node_->attachObject(shadow_.get());
     shadow_->setColor(Ogre::ColourValue::Black);
     label_->setRenderQueueGroup(Ogre::RENDER_QUEUE_MAIN + 1);  // after its shadow
   }

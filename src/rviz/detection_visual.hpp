@@ -60,8 +60,9 @@ private:
   void drawEdges(const Ogre::Vector3& size, const Ogre::ColourValue& color);
 
   Ogre::SceneManager& scene_;
-  Ogre::SceneNode* node_;        // of the frame of the detections
-  Ogre::SceneNode* label_node_;  // not turned with the box
+  Ogre::SceneNode* node_;         // of the frame of the detections
+  Ogre::SceneNode* label_node_;   // not turned with the box
+  Ogre::SceneNode* shadow_node_;  // at the same place: to Ogre all texts have one name, which is unique at a node
   std::unique_ptr<rviz::BillboardLine> edges_;
   std::unique_ptr<rviz::Shape> faces_;
   std::unique_ptr<rviz::Axes> axes_;

@@ -97,6 +97,7 @@ class RvizDisplayTest(unittest.TestCase):
 
     def expect(self, names, *detections, frame="map"):
         def shown():
+            self.assertIsNone(self.rviz.poll(), "rviz has ended")
             self.publish(*detections, frame=frame)
             return self.seen() == set(names)
         support.wait_for(shown, "%s on the screen" % (names,))
