@@ -25,9 +25,10 @@ DISTANCE = 2.0  # of the eye, which looks along x, z up [m]
 CORNERS = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
 
 
-def configuration():
+def configuration(**properties):
     display = {"Class": "sks_detector/Detections", "Name": "Detections", "Enabled": True, "Topic": "/detector/detections",
-               "Threshold": THRESHOLD, "Alpha": 0, "Axes": "None", "Labels": False, "Timeout": 0}
+               "Threshold": THRESHOLD, "Timeout": 0}
+    display.update(properties)
     view = {"Class": "rviz/Orbit", "Name": "Current View", "Target Frame": "<Fixed Frame>", "Distance": DISTANCE,
             "Focal Point": {"X": 0, "Y": 0, "Z": 0}, "Pitch": 0, "Yaw": 3.14159265, "Near Clip Distance": 0.01}
     return {"Panels": [], "Visualization Manager": {
@@ -61,12 +62,13 @@ def extent(mask, least=1):
 
 @unittest.skipUnless(screen.AVAILABLE, "needs Xvfb and ImageMagick")
 class RvizDisplayTest(unittest.TestCase):
-    def setUp(self):
+    def start(self, **properties):
+        """rviz, with these properties of the display."""
         self.folder = tempfile.mkdtemp(prefix="sks_rviz_")
         self.addCleanup(shutil.rmtree, self.folder)
         config = os.path.join(self.folder, "display.rviz")
         with open(config, "w") as file:
-            yaml.safe_dump(configuration(), file)
+            yaml.safe_dump(configuration(**properties), file)
         self.publisher = rospy.Publisher("/detector/detections", DetectionArray, queue_size=10)
         self.addCleanup(self.publisher.unregister)
         status = rospy.Publisher("/detector/status", Status, queue_size=1, latch=True)
@@ -112,6 +114,7 @@ class RvizDisplayTest(unittest.TestCase):
         return np.array([columns.min(), columns.max(), rows.min(), rows.max()])
 
     def test_boxes_have_their_places_and_the_colours_of_the_codebook(self):
+        self.start(Alpha=0, Axes="None", Labels=False)  # nothing but edges
         can = detection("can", 0.8, (0.1, 0.5, 0.2), turn=0.6)
         box = detection("box", 0.9, (-0.2, -0.4, -0.1), (0.2, 0.3, 0.3))
         self.expect(["can", "box"], box, can)
@@ -128,6 +131,7 @@ class RvizDisplayTest(unittest.TestCase):
         self.expect([])
 
     def test_goes_on_after_arrays_that_cannot_be_drawn(self):
+        self.start()
         nan, zero, long, huge, negative = (detection() for _ in range(5))
         nan.box_center.position.x = nan.score = float("nan")
         zero.box_center.orientation.w = zero.pose.pose.orientation.w = 0
@@ -147,6 +151,8 @@ class RvizDisplayTest(unittest.TestCase):
         self.assertIsNone(self.rviz.poll())
 
     def test_many_arrays_a_second_need_no_more_memory(self):
+        self.start()
+
         def stream(seconds):
             rate, end = rospy.Rate(200), rospy.get_time() + seconds
             count = 0
