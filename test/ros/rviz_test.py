@@ -3,34 +3,25 @@
 """What rviz.launch shows of detector.launch, on a screen in memory drawn by software. SKS_SCREENSHOT=FILE.png keeps a
 picture of it."""
 import os
-import shutil
 import signal
 import subprocess
 import unittest
 
-import numpy as np
 import rospy
 import rostest
 import tf2_ros
 from geometry_msgs.msg import TransformStamped
 from visualization_msgs.msg import MarkerArray
 
+import screen
 import support
 import synthetic
 
-WIDTH, HEIGHT = 1280, 800
 
-
-
-
-@unittest.skipUnless(shutil.which("Xvfb") and shutil.which("import"), "needs Xvfb and ImageMagick")
+@unittest.skipUnless(screen.AVAILABLE, "needs Xvfb and ImageMagick")
 class RvizTest(unittest.TestCase):
     def setUp(self):
-        self.screen = subprocess.Popen(
-            ["Xvfb", "-displayfd", "1", "-screen", "0", "%dx%dx24" % (WIDTH, HEIGHT), "-nolisten", "tcp"],
-            stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
-        display = ":" + self.screen.stdout.readline().decode().strip()
-        self.environment = dict(os.environ, DISPLAY=display, LIBGL_ALWAYS_SOFTWARE="1", QT_X11_NO_MITSHM="1")
+        self.screen = screen.Screen()
         self.rviz = None
         self.markers = support.Recorder("/detector/markers", MarkerArray)
         self.source = support.CloudSource("/points")
@@ -38,21 +29,18 @@ class RvizTest(unittest.TestCase):
     def tearDown(self):
         self.markers.close()
         self.source.publisher.unregister()
-        for process in (self.rviz, self.screen):
-            process.send_signal(signal.SIGINT)
-            process.wait(support.PATIENCE)
+        self.rviz.send_signal(signal.SIGINT)
+        self.rviz.wait(support.PATIENCE)
+        self.screen.close()
 
     def start(self, fixed_frame):
         self.rviz = subprocess.Popen(["roslaunch", "sks_detector", "rviz.launch", "points:=/points",
-                                      "fixed_frame:=" + fixed_frame], env=self.environment)
+                                      "fixed_frame:=" + fixed_frame], env=self.screen.environment)
         support.wait_for(lambda: self.source.publisher.get_num_connections() >= 2, "rviz", 120)
 
-    def pixels_like(self, color, tolerance=12):
+    def pixels_like(self, color):
         """How many pixels of the screen have about this colour."""
-        shot = subprocess.check_output(["import", "-silent", "-window", "root", "-depth", "8", "rgb:-"],
-                                       env=self.environment)
-        pixels = np.frombuffer(shot, np.uint8).reshape(-1, 3).astype(int)
-        return int((np.abs(pixels - np.round(255 * np.array(color))).max(1) <= tolerance).sum())
+        return int(self.screen.like(color).sum())
 
     def shown(self, points):
         self.source.send(support.cloud_message(points))
@@ -72,8 +60,7 @@ class RvizTest(unittest.TestCase):
         self.start("camera")
         colors = self.expect_boxes()
         if os.environ.get("SKS_SCREENSHOT"):
-            subprocess.check_call(["import", "-silent", "-window", "root", os.environ["SKS_SCREENSHOT"]],
-                                  env=self.environment)
+            self.screen.keep(os.environ["SKS_SCREENSHOT"])
         support.wait_for(lambda: self.shown(synthetic.scene(names=())) and max(map(self.pixels_like, colors)) < 50,
                          "the boxes to vanish", 120)
 
