@@ -34,6 +34,11 @@ class DetectionTest(unittest.TestCase):
             self.assertLess(np.degrees(np.arccos(min(1, (np.trace(difference[:3, :3]) - 1) / 2))), 5)
             self.assertGreaterEqual(detection.score, 0.5)
             self.assertLessEqual(detection.score, 1)
+            covariance = np.reshape(detection.pose.covariance, (6, 6))
+            np.testing.assert_allclose(covariance, covariance.T)
+            deviations = np.sqrt(np.linalg.eigvalsh(covariance[:3, :3]))
+            self.assertGreater(deviations[0], 1e-5)  # [m]
+            self.assertLess(deviations[2], 0.1)
 
     def test_finds_both_objects(self):
         answer = self.answer(support.cloud_message(synthetic.scene()))
