@@ -6,6 +6,7 @@
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
 
+#include "core/sharing/result_fields.hpp"
 #include "evaluation/peak_memory.hpp"
 
 namespace sks {
@@ -65,10 +66,9 @@ std::vector<std::pair<std::string, TimeQuantiles>> timeSpreads(const std::vector
   return result;
 }
 
-SceneResult evaluateScene(const DataSet& data_set, const Scene& scene, const DetectFunction& detect) {
+DetectionResult detectInScene(const DataSet& data_set, const Scene& scene, const DetectFunction& detect) {
   try {
-    const DetectionResult found = detect(readCloud(scene.path, data_set.scale));
-    return {scene, matchScene(scene, found.detections, data_set.max_distance), found.times, found.counts};
+    return detect(readCloud(scene.path, data_set.scale));
   } catch (const Error& error) {
     throw Error(error.code(), "scene '" + scene.name + "' (" + scene.path + "): " + error.what());
   }
@@ -83,7 +83,7 @@ std::vector<std::pair<std::string, double>> namedTimes(const StageTimes& times) 
 }
 
 Evaluation evaluate(const DataSet& data_set, const DetectFunction& detect, const std::string& method,
-                    const Settings& settings, const Progress& progress) {
+                    const Settings& settings, const Progress& progress, WorkShare* share) {
   if (data_set.scenes.empty()) {
     throw Error(ErrorCode::bad_data, "'" + data_set.file + "' has no scenes to evaluate; add some under 'scenes'");
   }
@@ -93,11 +93,17 @@ Evaluation evaluate(const DataSet& data_set, const DetectFunction& detect, const
   evaluation.settings = settings;
   evaluation.threshold = settings.detection.threshold;
   evaluation.max_distance = data_set.max_distance;
-  for (const Scene& scene : data_set.scenes) {
-    report(progress, {"evaluating", scene.name, evaluation.scenes.size(), data_set.scenes.size()});
-    evaluation.scenes.push_back(evaluateScene(data_set, scene, detect));
-  }
-  report(progress, {"evaluating", "", evaluation.scenes.size(), data_set.scenes.size()});
+  const std::vector<Scene>& scenes = data_set.scenes;
+  dealOut<DetectionResult>(
+      share, scenes.size(), [&](std::size_t i) { return detectInScene(data_set, scenes[i], detect); },
+      [&](std::size_t i, const DetectionResult& found) {
+        evaluation.scenes.push_back(
+            {scenes[i], matchScene(scenes[i], found.detections, data_set.max_distance), found.times, found.counts});
+      },
+      [&](std::size_t done) {
+        report(progress, {"evaluating", done < scenes.size() ? scenes[done].name : "", done, scenes.size()});
+      });
+  report(progress, {"evaluating", "", scenes.size(), scenes.size()});
   scoreScenes(evaluation);
   evaluation.peak_memory_mb = peakMemoryMb();
   return evaluation;
