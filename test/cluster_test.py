@@ -3,8 +3,10 @@
 """Several processes of `sks` under mpirun give what one gives, and end with one message where one of them fails.
 Arguments: sks. Exit status 77 where there is no mpirun, or sks was built without MPI."""
 import glob
+import hashlib
 import json
 import os
+import re
 import shutil
 import signal
 import socket
@@ -51,9 +53,14 @@ def without_times(value):
     return [without_times(item) for item in value] if isinstance(value, list) else value
 
 
-def content(folder):
+def content(path):
+    with open(path, 'rb') as file:
+        return file.read()
+
+
+def checksums(folder):
     files = sorted(path for path in glob.glob(folder + '/**', recursive=True) if os.path.isfile(path))
-    return {os.path.relpath(path, folder): open(path, 'rb').read() for path in files}
+    return {os.path.relpath(path, folder): hashlib.sha256(content(path)).hexdigest() for path in files}
 
 
 class ClusterTest(unittest.TestCase):
@@ -62,6 +69,7 @@ class ClusterTest(unittest.TestCase):
         cls.folder = tempfile.mkdtemp()
         cls.set = os.path.join(cls.folder, 'set')
         cls.simulate(cls.set, 0)
+        cls.checksums = checksums(cls.set)
 
     @classmethod
     def tearDownClass(cls):
@@ -85,7 +93,7 @@ class ClusterTest(unittest.TestCase):
         for processes in (2, 4):
             other = self.path('set%d' % processes)
             self.simulate(other, processes)
-            self.assertEqual(content(other), content(self.set))
+            self.assertEqual(checksums(other), self.checksums)
 
     def test_trains_the_same_codebook(self):
         files = {}
@@ -93,14 +101,13 @@ class ClusterTest(unittest.TestCase):
             name = self.path('all%d.sks' % processes)
             self.checked(processes, 'train', '--dataset', self.set + '/dataset.yaml', '--views', '8', *FAST, '--output',
                          name)
-            files[processes] = open(name, 'rb').read()
+            files[processes] = content(name)
         for processes in (1, 2, 4):
             self.assertEqual(files[processes], files[0], processes)
 
     def test_trains_the_same_where_some_clouds_have_no_colour(self):
         for index in (2, 3):
-            with open('%s/scenes/scene%03d.pcd' % (self.set, index), 'rb') as file:
-                cloud = file.read()
+            cloud = content('%s/scenes/scene%03d.pcd' % (self.set, index))
             self.assertIn(b'rgb', cloud[:300])
             with open(self.set + '/plain%d.pcd' % index, 'wb') as file:
                 file.write(cloud.replace(b'rgb', b'abc', 1))
@@ -112,7 +119,7 @@ class ClusterTest(unittest.TestCase):
         for processes in (0, 2, 4):
             name = self.path('mixed%d.sks' % processes)
             self.checked(processes, 'train', '--dataset', self.set + '/mixed.yaml', *FAST, '--output', name)
-            files[processes] = open(name, 'rb').read()
+            files[processes] = content(name)
         for processes in (2, 4):
             self.assertEqual(files[processes], files[0], processes)
 
@@ -162,8 +169,32 @@ class ClusterTest(unittest.TestCase):
             self.assertRegex(said[0], r'\(process \d on %s\)' % socket.gethostname())
             self.assertFalse(os.path.exists(self.path('damaged.json')))
 
+    def test_goes_on_where_a_run_was_ended(self):
+        damaged = self.path('resumed')
+        shutil.copytree(self.set, damaged)
+        arguments = ['evaluate', '--dataset', damaged + '/dataset.yaml', '--views', '8', *FAST, '--json',
+                     self.path('resumed.json')]
+        whole = without_times(json.loads(self.checked(0, *arguments[:-1], '-').stdout))
+        journal = self.path('resumed.json.journal')
+        for processes in (0, 2):
+            with open(damaged + '/scenes/scene003.pcd', 'r+b') as file:
+                cloud = file.read()
+                file.truncate(5000)
+            self.assertEqual(run(processes, *arguments, '--resume').returncode, 1)
+            with open(damaged + '/scenes/scene003.pcd', 'wb') as file:
+                file.write(cloud)
+            known = content(journal).decode().splitlines()
+            self.assertTrue(all(re.match('[0-9a-f]{8} [012] ', line) for line in known[1:]), known)
+            other = run(0, *arguments, '--resume', '--set', 'detection.threshold=0.1')
+            self.assertEqual((other.returncode, 'is the journal of another run' in other.stderr), (2, True))
+            self.checked(processes, *arguments, '--resume')
+            with open(self.path('resumed.json')) as file:
+                self.assertEqual(without_times(json.load(file)), whole)
+            self.assertFalse(os.path.exists(journal))
+        self.assertEqual(run(0, *arguments[:-1], '-', '--resume').returncode, 2)
+
     def test_says_once_what_is_wrong_with_the_arguments(self):
-        for arguments, status, text in ((('train', '--nonsense'), 2, '--nonsense'),
+        for arguments, status, text in ((('train', '--output', 'a.sks', '--nonsense'), 2, '--nonsense'),
                                         (('train', '--builtin', '--output', 'a.sks', '--set', 'thread=1'), 2, 'threads'),
                                         (('evaluate', '--dataset', '/gone.yaml'), 1, '/gone.yaml'),
                                         (('info', 'a.sks'), 2, 'does not share its work')):

@@ -116,7 +116,7 @@ TEST(CodebookMerge, KeepsModelsWithTheirObjects) {
 TEST(CodebookMerge, RefusesOtherSettingsWithNamesAndValues) {
   Settings other;
   other.keypoints.grid_size = 0.03;
-  other.descriptor.radius = 0.05;
+  other.descriptor.radius = 0.06;
   other.threads = 1;
   const auto a = trainedOn({sampleOf("a", test::bumps())}), b = trainedOn({sampleOf("b", test::bumps())}, other);
   const std::string error = errorOf(ErrorCode::incompatible, [&] {
