@@ -7,7 +7,7 @@
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
 
-#include "core/sharing/result_fields.hpp"
+#include "evaluation/result_fields.hpp"
 
 namespace sks {
 namespace {

@@ -6,8 +6,9 @@
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
 
-#include "core/sharing/result_fields.hpp"
 #include "evaluation/peak_memory.hpp"
+#include "evaluation/result_fields.hpp"
+#include "evaluation/shared_scoring.hpp"
 
 namespace sks {
 namespace {
@@ -74,6 +75,26 @@ DetectionResult detectInScene(const DataSet& data_set, const Scene& scene, const
   }
 }
 
+/// Makes what was found known to all processes: all that the BOP errors need of it.
+void spreadFound(WorkShare& share, std::vector<std::vector<MatchedDetection>>& found) {
+  std::vector<std::vector<Detection>> detections;
+  for (const std::vector<MatchedDetection>& scene : found) {
+    detections.emplace_back();
+    for (const MatchedDetection& matched : scene) detections.back().push_back(matched.detection);
+  }
+  std::string bytes = bytesOf(std::move(detections));
+  share.spread(bytes);
+  if (share.leads()) return;
+  found.clear();
+  for (std::vector<Detection>& scene : fromBytes<std::vector<std::vector<Detection>>>(bytes)) {
+    found.emplace_back();
+    for (Detection& detection : scene) {
+      found.back().emplace_back();
+      found.back().back().detection = std::move(detection);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, double>> namedTimes(const StageTimes& times) {
@@ -132,9 +153,15 @@ void scoreScenes(Evaluation& evaluation) {
 
 void scoreAsBop(Evaluation& evaluation, const DataSet& data_set, const ModelLoader& loader, int threads,
                 const Progress& progress) {
+  scoreAsBop(evaluation, data_set, loader, threads, progress, nullptr);
+}
+
+void scoreAsBop(Evaluation& evaluation, const DataSet& data_set, const ModelLoader& loader, int threads,
+                const Progress& progress, WorkShare* share) {
   std::vector<std::vector<MatchedDetection>> found;
   for (const SceneResult& scene : evaluation.scenes) found.push_back(scene.detections);
-  evaluation.bop = bopScores(data_set, found, loader, threads, progress);
+  if (share != nullptr) spreadFound(*share, found);
+  evaluation.bop = bopScores(data_set, found, loader, threads, progress, share);
 }
 
 }  // namespace sks

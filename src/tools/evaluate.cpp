@@ -8,6 +8,7 @@
 
 #include "evaluation/evaluation.hpp"
 #include "evaluation/registered_truth.hpp"
+#include "evaluation/shared_scoring.hpp"
 #include "io/crc32c.hpp"
 #include "io/dataset.hpp"
 #include "io/file.hpp"
@@ -82,8 +83,8 @@ void run(EvaluateOptions& options) {
   JournaledShare journaled(workShare(), journal ? &*journal : nullptr);
   Evaluation evaluation = evaluate(registeredTruth(data_set, *codebook), detect, options.method.name(), settings,
                                    bar.callback(), options.resume ? &journaled : workShare());
+  scoreAsBop(evaluation, data_set, objectModels(data_set), threadCount(settings), bar.callback(), workShare());
   if (!leads()) return;
-  scoreAsBop(evaluation, data_set, objectModels(data_set), threadCount(settings), bar.callback());
   bar.clear();
   nlohmann::json json = evaluationJson(evaluation, codebook->objects);
   options.method.addSettings(json["settings"]);
