@@ -70,6 +70,10 @@ class ClusterTest(unittest.TestCase):
         cls.set = os.path.join(cls.folder, 'set')
         cls.simulate(cls.set, 0)
         cls.checksums = checksums(cls.set)
+        cls.codebook = os.path.join(cls.folder, 'mug.sks')
+        done = run(0, 'train', '--mesh', 'mug=builtin:mug', 'duck=builtin:duck', '--views', '8', *FAST, '--output',
+                   cls.codebook)
+        assert done.returncode == 0, done.stderr
 
     @classmethod
     def tearDownClass(cls):
@@ -160,8 +164,8 @@ class ClusterTest(unittest.TestCase):
         with open(damaged + '/scenes/scene003.pcd', 'r+b') as file:
             file.truncate(5000)
         for processes in (2, 4):
-            done = run(processes, 'evaluate', '--dataset', damaged + '/dataset.yaml', '--views', '8', *FAST, '--json',
-                       self.path('damaged.json'))
+            done = run(processes, 'evaluate', '--dataset', damaged + '/dataset.yaml', '--codebook', self.codebook, *FAST,
+                       '--json', self.path('damaged.json'))
             self.assertEqual(done.returncode, 1, done.stderr)
             said = messages(done)
             self.assertEqual(len(said), 1, done.stderr)
@@ -172,7 +176,7 @@ class ClusterTest(unittest.TestCase):
     def test_goes_on_where_a_run_was_ended(self):
         damaged = self.path('resumed')
         shutil.copytree(self.set, damaged)
-        arguments = ['evaluate', '--dataset', damaged + '/dataset.yaml', '--views', '8', *FAST, '--json',
+        arguments = ['evaluate', '--dataset', damaged + '/dataset.yaml', '--codebook', self.codebook, *FAST, '--json',
                      self.path('resumed.json')]
         whole = without_times(json.loads(self.checked(0, *arguments[:-1], '-').stdout))
         journal = self.path('resumed.json.journal')
