@@ -127,6 +127,22 @@ class ClusterTest(unittest.TestCase):
         for processes in (2, 4):
             self.assertEqual(files[processes], files[0], processes)
 
+    def test_registers_captured_views_to_the_same_model(self):
+        clouds = [('a', 0), ('a', 1), ('b', 0), ('b', 0), ('b', 0)]  # the same view again fits itself
+        with open(self.set + '/captured.yaml', 'w') as file:
+            file.write('name: captured\nunits: m\nmax_distance: 0.05\ntraining:\n' + ''.join(
+                '  - {object: %s, cloud: scenes/scene%03d.pcd, kind: view}\n' % cloud for cloud in clouds))
+        files, registrations = {}, {}
+        for processes in (0, 2):
+            name = self.path('captured%d.sks' % processes)
+            done = self.checked(processes, 'train', '--dataset', self.set + '/captured.yaml', *FAST, '--set',
+                                'training.register_views=true', '--output', name, '--json', '-')
+            files[processes] = content(name)
+            registrations[processes] = json.loads(done.stdout)['registration']
+        self.assertEqual([thing['tied'] for thing in registrations[0]], [0, 3])
+        self.assertEqual(registrations[2], registrations[0])
+        self.assertEqual(files[2], files[0])
+
     def results(self, processes, *arguments):
         return without_times(json.loads(self.checked(processes, *arguments, *FAST, '--json', '-').stdout))
 
@@ -231,4 +247,4 @@ if __name__ == '__main__':
     if 'cannot share' in run(2, 'evaluate', '--dataset', '/gone.yaml').stderr:
         print('sks was built without MPI')
         sys.exit(77)
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:])
