@@ -41,7 +41,8 @@ def help_of(*words):
                           universal_newlines=True).stdout
 
 
-COMMANDS = ['train', 'detect', 'evaluate', 'classify', 'keypoints', 'import', 'simulate', 'info', 'verify', 'settings']
+COMMANDS = ['train', 'merge', 'detect', 'evaluate', 'classify', 'keypoints', 'import', 'simulate', 'info', 'verify',
+            'settings']
 
 
 class CompletionTest(unittest.TestCase):

@@ -8,10 +8,17 @@
 
 #include "evaluation/average_recall.hpp"
 #include "evaluation/depth_rendering.hpp"
+#include "evaluation/shared_scoring.hpp"
 #include "evaluation/surface_distance.hpp"
 #include "evaluation/visible_surface.hpp"
 
 namespace sks {
+
+template <typename Archive>
+void fields(Archive& archive, RecallCount& count) {
+  archive(count.targets, count.found);
+}
+
 namespace {
 
 constexpr double least_visible = 0.1;                               // fraction of a target's surface
@@ -46,7 +53,30 @@ struct ObjectCounts {
     has_vsd = false;
     if (shortcoming.empty()) shortcoming = reason;
   }
+
+  void add(const ObjectCounts& other) {
+    targets += other.targets;
+    if (!has_mssd) return;  // nothing can be taken
+    vsd.add(other.vsd);
+    mssd.add(other.mssd);
+    mspd.add(other.mspd);
+    has_vsd = has_vsd && other.has_vsd;
+    has_mssd = has_mssd && other.has_mssd;
+    has_mspd = has_mspd && other.has_mspd;
+    if (shortcoming.empty()) shortcoming = other.shortcoming;
+  }
 };
+
+struct NamedCounts {
+  std::string object;
+  ObjectCounts counts;
+};
+
+template <typename Archive>
+void fields(Archive& archive, NamedCounts& named) {
+  ObjectCounts& c = named.counts;
+  archive(named.object, c.vsd, c.mssd, c.mspd, c.has_vsd, c.has_mssd, c.has_mspd, c.targets, c.shortcoming);
+}
 
 /// A true or found pose of a model.
 struct PosedModel {
@@ -179,19 +209,36 @@ BopRecall recallOf(const ObjectCounts& counts) {
 
 BopScores bopScores(const DataSet& data_set, const std::vector<std::vector<MatchedDetection>>& found,
                     const ModelLoader& loader, int threads, const Progress& progress) {
+  return bopScores(data_set, found, loader, threads, progress, nullptr);
+}
+
+BopScores bopScores(const DataSet& data_set, const std::vector<std::vector<MatchedDetection>>& found,
+                    const ModelLoader& loader, int threads, const Progress& progress, WorkShare* share) {
+  const std::vector<Scene>& scenes = data_set.scenes;
   ModelCache models(data_set, loader);
-  std::map<std::string, ObjectCounts> objects;
-  for (std::size_t i = 0; i < data_set.scenes.size(); ++i) {
-    const Scene& scene = data_set.scenes[i];
-    report(progress, {"taking BOP errors", scene.name, i, data_set.scenes.size()});
-    const std::map<std::string, Instances> instances = instancesOf(scene, found[i]);
-    if (instances.empty()) continue;
+  const auto countsIn = [&](std::size_t i) {
+    std::vector<NamedCounts> counts;
+    const std::map<std::string, Instances> instances = instancesOf(scenes[i], found[i]);
+    if (instances.empty()) return counts;
     std::optional<SceneDepth> depth;
-    if (models.any()) depth = sceneDepth(readCloud(scene.path, data_set.scale), threads);
+    if (models.any()) depth = sceneDepth(readCloud(scenes[i].path, data_set.scale), threads);
     const SceneErrors errors(depth, models);
-    for (const auto& [object, group] : instances) errors.add(scene.name, group, objects[object]);
-  }
-  report(progress, {"taking BOP errors", "", data_set.scenes.size(), data_set.scenes.size()});
+    for (const auto& [object, group] : instances) {
+      counts.push_back({object, {}});
+      errors.add(scenes[i].name, group, counts.back().counts);
+    }
+    return counts;
+  };
+  std::map<std::string, ObjectCounts> objects;
+  dealOut<std::vector<NamedCounts>>(
+      share, scenes.size(), countsIn,
+      [&](std::size_t, const std::vector<NamedCounts>& counts) {
+        for (const NamedCounts& named : counts) objects[named.object].add(named.counts);
+      },
+      [&](std::size_t done) {
+        report(progress, {"taking BOP errors", done < scenes.size() ? scenes[done].name : "", done, scenes.size()});
+      });
+  report(progress, {"taking BOP errors", "", scenes.size(), scenes.size()});
   BopScores scores;
   ObjectCounts total;
   for (const auto& [name, counts] : objects) {

@@ -7,12 +7,14 @@
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
 
+#include "evaluation/result_fields.hpp"
+
 namespace sks {
 namespace {
 
-ClassificationTest runTest(const TestEntry& entry, double scale, const ClassifyFunction& classify) {
+Classification classifyTest(const TestEntry& entry, double scale, const ClassifyFunction& classify) {
   try {
-    return {entry, classify(readCloud(entry.path, scale))};
+    return classify(readCloud(entry.path, scale));
   } catch (const Error& error) {
     const bool named = std::string(error.what()).find(entry.path) != std::string::npos;
     throw Error(error.code(), (named ? "" : entry.path + ": ") + error.what());
@@ -49,7 +51,8 @@ void score(ClassificationEvaluation& evaluation) {
 }  // namespace
 
 ClassificationEvaluation evaluateTests(const DataSet& data_set, const ClassifyFunction& classify,
-                                       const std::string& method, const Settings& settings, const Progress& progress) {
+                                       const std::string& method, const Settings& settings, const Progress& progress,
+                                       WorkShare* share) {
   const std::size_t count = data_set.tests.size();
   if (count == 0) {
     throw Error(ErrorCode::bad_data, "'" + data_set.file +
@@ -60,10 +63,15 @@ ClassificationEvaluation evaluateTests(const DataSet& data_set, const ClassifyFu
   evaluation.data_set = data_set.name;
   evaluation.method = method;
   evaluation.settings = settings;
-  for (const TestEntry& entry : data_set.tests) {
-    report(progress, {"classifying", entry.path, evaluation.tests.size(), count});
-    evaluation.tests.push_back(runTest(entry, data_set.scale, classify));
-  }
+  const std::vector<TestEntry>& tests = data_set.tests;
+  dealOut<Classification>(
+      share, count, [&](std::size_t i) { return classifyTest(tests[i], data_set.scale, classify); },
+      [&](std::size_t i, Classification result) {
+        evaluation.tests.push_back({tests[i], std::move(result)});
+      },
+      [&](std::size_t done) {
+        report(progress, {"classifying", done < count ? tests[done].path : "", done, count});
+      });
   report(progress, {"classifying", "", count, count});
   score(evaluation);
   return evaluation;

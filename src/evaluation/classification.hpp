@@ -11,6 +11,7 @@
 #include <sks_detector/settings.hpp>
 
 #include "core/pipeline/classifier.hpp"
+#include "core/sharing/work_share.hpp"
 #include "io/dataset.hpp"
 
 namespace sks {
@@ -46,10 +47,11 @@ struct ClassificationEvaluation {
 
 /// Classifies every test of a data set.
 /// @param method name that stands in the result @param settings that `classify` works with
+/// @param share where given, its processes classify; only the leader's result is whole
 /// @throws Error(bad_data) for a data set without tests; any error of reading or classifying, with the cloud's file;
 ///         Error(cancelled)
 ClassificationEvaluation evaluateTests(const DataSet& data_set, const ClassifyFunction& classify,
                                        const std::string& method, const Settings& settings,
-                                       const Progress& progress = {});
+                                       const Progress& progress = {}, WorkShare* share = nullptr);
 
 }  // namespace sks

@@ -7,6 +7,8 @@
 #include <sks_detector/error.hpp>
 
 #include "evaluation/peak_memory.hpp"
+#include "evaluation/result_fields.hpp"
+#include "evaluation/shared_scoring.hpp"
 
 namespace sks {
 namespace {
@@ -65,12 +67,31 @@ std::vector<std::pair<std::string, TimeQuantiles>> timeSpreads(const std::vector
   return result;
 }
 
-SceneResult evaluateScene(const DataSet& data_set, const Scene& scene, const DetectFunction& detect) {
+DetectionResult detectInScene(const DataSet& data_set, const Scene& scene, const DetectFunction& detect) {
   try {
-    const DetectionResult found = detect(readCloud(scene.path, data_set.scale));
-    return {scene, matchScene(scene, found.detections, data_set.max_distance), found.times, found.counts};
+    return detect(readCloud(scene.path, data_set.scale));
   } catch (const Error& error) {
     throw Error(error.code(), "scene '" + scene.name + "' (" + scene.path + "): " + error.what());
+  }
+}
+
+/// Makes what was found known to all processes: all that the BOP errors need of it.
+void spreadFound(WorkShare& share, std::vector<std::vector<MatchedDetection>>& found) {
+  std::vector<std::vector<Detection>> detections;
+  for (const std::vector<MatchedDetection>& scene : found) {
+    detections.emplace_back();
+    for (const MatchedDetection& matched : scene) detections.back().push_back(matched.detection);
+  }
+  std::string bytes = bytesOf(std::move(detections));
+  share.spread(bytes);
+  if (share.leads()) return;
+  found.clear();
+  for (std::vector<Detection>& scene : fromBytes<std::vector<std::vector<Detection>>>(bytes)) {
+    found.emplace_back();
+    for (Detection& detection : scene) {
+      found.back().emplace_back();
+      found.back().back().detection = std::move(detection);
+    }
   }
 }
 
@@ -83,7 +104,7 @@ std::vector<std::pair<std::string, double>> namedTimes(const StageTimes& times) 
 }
 
 Evaluation evaluate(const DataSet& data_set, const DetectFunction& detect, const std::string& method,
-                    const Settings& settings, const Progress& progress) {
+                    const Settings& settings, const Progress& progress, WorkShare* share) {
   if (data_set.scenes.empty()) {
     throw Error(ErrorCode::bad_data, "'" + data_set.file + "' has no scenes to evaluate; add some under 'scenes'");
   }
@@ -93,11 +114,17 @@ Evaluation evaluate(const DataSet& data_set, const DetectFunction& detect, const
   evaluation.settings = settings;
   evaluation.threshold = settings.detection.threshold;
   evaluation.max_distance = data_set.max_distance;
-  for (const Scene& scene : data_set.scenes) {
-    report(progress, {"evaluating", scene.name, evaluation.scenes.size(), data_set.scenes.size()});
-    evaluation.scenes.push_back(evaluateScene(data_set, scene, detect));
-  }
-  report(progress, {"evaluating", "", evaluation.scenes.size(), data_set.scenes.size()});
+  const std::vector<Scene>& scenes = data_set.scenes;
+  dealOut<DetectionResult>(
+      share, scenes.size(), [&](std::size_t i) { return detectInScene(data_set, scenes[i], detect); },
+      [&](std::size_t i, const DetectionResult& found) {
+        evaluation.scenes.push_back(
+            {scenes[i], matchScene(scenes[i], found.detections, data_set.max_distance), found.times, found.counts});
+      },
+      [&](std::size_t done) {
+        report(progress, {"evaluating", done < scenes.size() ? scenes[done].name : "", done, scenes.size()});
+      });
+  report(progress, {"evaluating", "", scenes.size(), scenes.size()});
   scoreScenes(evaluation);
   evaluation.peak_memory_mb = peakMemoryMb();
   return evaluation;
@@ -126,9 +153,15 @@ void scoreScenes(Evaluation& evaluation) {
 
 void scoreAsBop(Evaluation& evaluation, const DataSet& data_set, const ModelLoader& loader, int threads,
                 const Progress& progress) {
+  scoreAsBop(evaluation, data_set, loader, threads, progress, nullptr);
+}
+
+void scoreAsBop(Evaluation& evaluation, const DataSet& data_set, const ModelLoader& loader, int threads,
+                const Progress& progress, WorkShare* share) {
   std::vector<std::vector<MatchedDetection>> found;
   for (const SceneResult& scene : evaluation.scenes) found.push_back(scene.detections);
-  evaluation.bop = bopScores(data_set, found, loader, threads, progress);
+  if (share != nullptr) spreadFound(*share, found);
+  evaluation.bop = bopScores(data_set, found, loader, threads, progress, share);
 }
 
 }  // namespace sks

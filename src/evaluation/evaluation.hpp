@@ -13,6 +13,7 @@
 #include <sks_detector/progress.hpp>
 #include <sks_detector/settings.hpp>
 
+#include "core/sharing/work_share.hpp"
 #include "evaluation/bop_scores.hpp"
 #include "evaluation/metrics.hpp"
 #include "evaluation/scene_matching.hpp"
@@ -76,10 +77,11 @@ struct Evaluation {
 /// @param method name that stands in the result
 /// @param settings that `detect` works with; its detection.threshold is the fixed threshold
 /// @param progress called before each scene and once at the end
+/// @param share where given, its processes detect; only the leader's result is whole
 /// @throws Error(bad_data) for a data set without scenes; any error of reading or detecting with the name of the scene
 ///         and its file; Error(cancelled)
 Evaluation evaluate(const DataSet& data_set, const DetectFunction& detect, const std::string& method,
-                    const Settings& settings, const Progress& progress = {});
+                    const Settings& settings, const Progress& progress = {}, WorkShare* share = nullptr);
 
 /// The part of evaluate() that scores what was found: fills in total, objects and times from the scenes.
 void scoreScenes(Evaluation& evaluation);

@@ -17,6 +17,12 @@
 #include "evaluation/metrics.hpp"
 
 namespace sks {
+template <typename Archive>
+void fields(Archive& archive, StudiedPair& p) {
+  archive(p.scene, p.object, p.pair.object_keypoints, p.pair.scene_keypoints, p.pair.correspondences, p.pair.inliers,
+          p.pair.T_scene_object, p.t_diff);
+}
+
 namespace {
 
 constexpr std::size_t timed_runs = 5;
@@ -37,20 +43,33 @@ KeypointStudy emptyStudy(const DataSet& data_set, const Settings& settings) {
   return study;
 }
 
+/// What one kind of keypoints gave in one scene.
+struct KindInScene {
+  double seconds = 0;
+  std::vector<StudiedPair> pairs;
+};
+
+template <typename Archive>
+void fields(Archive& archive, KindInScene& kind) {
+  archive(kind.seconds, kind.pairs);
+}
+
 /// Goes through the scenes of a data set; keeps the described training clouds.
 class Study {
 public:
   Study(const DataSet& data_set, const Settings& settings)
       : data_set_(data_set), threads_(startableThreads(settings)), study_(emptyStudy(data_set, settings)) {}
 
-  KeypointStudy run(const Progress& progress) {
-    for (std::size_t i = 0; i < data_set_.scenes.size(); ++i) {
-      const Scene& scene = data_set_.scenes[i];
-      report(progress, {"comparing keypoints", scene.name, i, data_set_.scenes.size()});
-      studyScene(scene);
-    }
-    report(progress, {"comparing keypoints", "", data_set_.scenes.size(), data_set_.scenes.size()});
-    if (study_.scenes == 0) {
+  KeypointStudy run(const Progress& progress, WorkShare* share) {
+    const std::vector<Scene>& scenes = data_set_.scenes;
+    dealOut<std::vector<KindInScene>>(
+        share, scenes.size(), [&](std::size_t i) { return studyScene(scenes[i]); },
+        [&](std::size_t i, std::vector<KindInScene> kinds) { take(scenes[i], std::move(kinds)); },
+        [&](std::size_t done) {
+          report(progress, {"comparing keypoints", done < scenes.size() ? scenes[done].name : "", done, scenes.size()});
+        });
+    report(progress, {"comparing keypoints", "", scenes.size(), scenes.size()});
+    if (study_.scenes == 0 && (share == nullptr || share->leads())) {
       throw Error(ErrorCode::bad_data, "'" + data_set_.file +
                                            "' has no pair to compare: an object of a scene needs a "
                                            "'pose' and, as 'reference', one of the training clouds");
@@ -113,20 +132,18 @@ private:
     return kinds;
   }
 
-  void studyScene(const Scene& scene) {
+  /// One for each kind; none where there is no pair.
+  std::vector<KindInScene> studyScene(const Scene& scene) {
     std::vector<std::pair<const GroundTruth*, const TrainingEntry*>> pairs;
     for (const GroundTruth& truth : scene.objects) {
       if (const TrainingEntry* reference = referenceOf(truth)) pairs.emplace_back(&truth, reference);
     }
-    study_.skipped += scene.objects.size() - pairs.size();
-    if (pairs.empty()) return;
-    ++study_.scenes;
+    std::vector<KindInScene> kinds;
+    if (pairs.empty()) return kinds;
     const Surface surface = prepare(scene.path, ViewKind::view);
     for (std::size_t k = 0; k < study_.kinds.size(); ++k) {
-      StudiedKeypoints& kind = study_.kinds[k];
-      double seconds = 0;
-      const DescribedKeypoints described = describe(surface, find(surface, kind.settings, &seconds));
-      kind.scene_times.push_back(seconds);
+      KindInScene kind;
+      const DescribedKeypoints described = describe(surface, find(surface, study_.kinds[k].settings, &kind.seconds));
       for (const auto& [truth, reference] : pairs) {
         StudiedPair pair{scene.name, truth->object, {}, {}};
         pair.pair = comparePair(describedObject(*reference)[k], described, study_.settings.ransac, threads_);
@@ -136,6 +153,18 @@ private:
         }
         kind.pairs.push_back(std::move(pair));
       }
+      kinds.push_back(std::move(kind));
+    }
+    return kinds;
+  }
+
+  void take(const Scene& scene, std::vector<KindInScene> kinds) {
+    study_.skipped += scene.objects.size() - (kinds.empty() ? 0 : kinds.front().pairs.size());
+    if (kinds.empty()) return;
+    ++study_.scenes;
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      study_.kinds[k].scene_times.push_back(kinds[k].seconds);
+      for (StudiedPair& pair : kinds[k].pairs) study_.kinds[k].pairs.push_back(std::move(pair));
     }
   }
 
@@ -156,9 +185,10 @@ double KeypointStudy::relativeTime(const StudiedKeypoints& kind) const {
   return kind.meanTime() / kinds.back().meanTime();
 }
 
-KeypointStudy studyKeypoints(const DataSet& data_set, const Settings& settings, const Progress& progress) {
+KeypointStudy studyKeypoints(const DataSet& data_set, const Settings& settings, const Progress& progress,
+                             WorkShare* share) {
   validate(settings);
-  return Study(data_set, settings).run(progress);
+  return Study(data_set, settings).run(progress, share);
 }
 
 }  // namespace sks

@@ -12,6 +12,7 @@
 #include <sks_detector/stages/descriptors.hpp>
 #include <sks_detector/stages/keypoints.hpp>
 
+#include "core/sharing/work_share.hpp"
 #include "evaluation/scene_matching.hpp"
 #include "io/dataset.hpp"
 
@@ -70,8 +71,10 @@ struct KeypointStudy {
 
 /// Compares grid, SKS (by the settings' selection) and ISS keypoints over every pair of a scene and an instance whose
 /// pose is known. Keypoints of object and scene are chosen alike; normals, descriptors and RANSAC are the same for all.
+/// @param share where given, its processes compare; only the leader's result is whole
 /// @throws Error(bad_usage) for invalid settings; Error(bad_data) for a data set without pairs; errors of reading, with
 ///         the file; Error(cancelled)
-KeypointStudy studyKeypoints(const DataSet& data_set, const Settings& settings, const Progress& progress = {});
+KeypointStudy studyKeypoints(const DataSet& data_set, const Settings& settings, const Progress& progress = {},
+                             WorkShare* share = nullptr);
 
 }  // namespace sks

@@ -10,6 +10,7 @@
 #include "core/settings/shown_text.hpp"
 #include "core/settings/value_text.hpp"
 #include "core/surface/color_space.hpp"
+#include "io/codebook_bytes.hpp"
 #include "io/codebook_layout.hpp"
 #include "io/file_content.hpp"
 
@@ -203,6 +204,10 @@ std::shared_ptr<const Codebook> read(const std::shared_ptr<FileContent>& file) {
 }
 
 }  // namespace
+
+std::shared_ptr<const Codebook> codebookFromBytes(const std::string& bytes) {
+  return read(std::make_shared<FileContent>(bytes.data(), bytes.size()));
+}
 
 std::shared_ptr<const Codebook> readCodebook(const std::string& path) {
   try {

@@ -10,6 +10,7 @@
 #include "core/settings/value_text.hpp"
 #include "core/surface/color_space.hpp"
 #include "io/atomic_file.hpp"
+#include "io/codebook_bytes.hpp"
 #include "io/codebook_layout.hpp"
 #include "io/crc32c.hpp"
 
@@ -192,6 +193,17 @@ FileParts makeParts(const Codebook& codebook, const std::string& path) {
   return parts;
 }
 
+std::string bytesOf(const FileParts& parts, const Codebook& codebook) {
+  std::string bytes;
+  bytes.reserve(std::size_t(parts.header.file_size));
+  const auto add = [&](const void* data, std::size_t size) {
+    if (size > 0) bytes.append(static_cast<const char*>(data), size);
+  };
+  add(&parts.header, sizeof(parts.header));
+  forEachPiece(parts, codebook, add);
+  return bytes;
+}
+
 /// All but the name of the file.
 void writeParts(const FileParts& parts, const Codebook& codebook, AtomicFile& file) {
   file.write(&parts.header, sizeof(parts.header));
@@ -212,6 +224,10 @@ std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook) {
   file.commit();
   codebook.checksum.set(parts.header.payload_checksum);
   return parts.header.payload_checksum;
+}
+
+std::string codebookBytes(const Codebook& codebook) {
+  return bytesOf(makeParts(codebook, codebook.name), codebook);
 }
 
 bool writeNewCodebook(const std::string& path, const Codebook& codebook) {

@@ -48,6 +48,22 @@ FileContent::FileContent(const std::string& path, const std::string& magic) {
   const RegularFile file(path);
   std::size_t size = file.size();
   if (!magic.empty() && !beginsWith(file, magic)) size = std::min(size, magic.size());
+  reserve(size);
+  try {
+    size_ = copy(file, data_, size);
+  } catch (...) {
+    if (data_) ::munmap(data_, reserved_);
+    throw;
+  }
+}
+
+FileContent::FileContent(const char* data, std::size_t size) {
+  reserve(size);
+  if (size > 0) std::memcpy(data_, data, size);
+  size_ = size;
+}
+
+void FileContent::reserve(std::size_t size) {
   if (size == 0) return;  // memory of no size cannot be reserved
   void* const data = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (data == MAP_FAILED) throw Error(ErrorCode::bad_file, std::generic_category().message(errno));
@@ -56,12 +72,6 @@ FileContent::FileContent(const std::string& path, const std::string& magic) {
 #ifdef MADV_HUGEPAGE
   if (size >= worth_large_pages) ::madvise(data, size, MADV_HUGEPAGE);  // a wish: thousands of pages take time to get
 #endif
-  try {
-    size_ = copy(file, data_, size);
-  } catch (...) {
-    ::munmap(data_, reserved_);
-    throw;
-  }
 }
 
 void FileContent::release(std::size_t offset, std::size_t size) {

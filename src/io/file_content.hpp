@@ -14,6 +14,8 @@ public:
   /// @param magic what the file must begin with; of one that does not, no more than that is read
   /// @throws Error(bad_file) with the system's reason, without the file's name
   explicit FileContent(const std::string& path, const std::string& magic = "");
+  /// A copy of what is in memory already. @throws Error(bad_file) where there is not enough
+  FileContent(const char* data, std::size_t size);
   ~FileContent();
   FileContent(const FileContent&) = delete;
   FileContent& operator=(const FileContent&) = delete;
@@ -25,6 +27,8 @@ public:
   std::size_t size() const { return size_; }
 
 private:
+  void reserve(std::size_t size);
+
   std::uint8_t* data_ = nullptr;
   std::size_t size_ = 0, reserved_ = 0;  // [bytes] what was read; what memory there is
 };

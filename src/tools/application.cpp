@@ -11,6 +11,7 @@ std::unique_ptr<CLI::App> makeApplication() {
   app->require_subcommand(1);
   app->set_version_flag("--version", std::string("sks ") + SKS_VERSION);
   addTrain(*app);
+  addMerge(*app);
   addDetect(*app);
   addEvaluate(*app);
   addClassify(*app);

@@ -7,6 +7,7 @@
 #include "evaluation/classification.hpp"
 #include "io/dataset.hpp"
 #include "tools/classification_report.hpp"
+#include "tools/cluster/cluster.hpp"
 #include "tools/codebook_options.hpp"
 #include "tools/command.hpp"
 #include "tools/method.hpp"
@@ -55,7 +56,8 @@ void run(ClassifyOptions& options) {
   warnOfUntrained(data_set, codebook->objects);
   const ClassifyFunction classify = options.method.classifyFunction(codebook, settings);
   const ClassificationEvaluation evaluation =
-      evaluateTests(data_set, classify, options.method.name(), settings, bar.callback());
+      evaluateTests(data_set, classify, options.method.name(), settings, bar.callback(), workShare());
+  if (!leads()) return;
   bar.clear();
   nlohmann::json json = classificationJson(evaluation);
   options.method.addSettings(json["settings"]);

@@ -5,8 +5,11 @@
 #include <sks_detector/error.hpp>
 #include <sks_detector/registration.hpp>
 
+#include "core/pipeline/shared_training.hpp"
+#include "io/codebook_bytes.hpp"
 #include "io/codebook_layout.hpp"
 #include "io/file.hpp"
+#include "tools/cluster/cluster.hpp"
 
 namespace sks::tools {
 
@@ -25,7 +28,7 @@ std::shared_ptr<const Codebook> CodebookOptions::read() const {
 void CodebookOptions::check() const {
   if (save_.empty()) return;
   checkCodebookName(save_);
-  checkWritable(save_);
+  if (leads()) checkWritable(save_);
 }
 
 std::shared_ptr<const Codebook> CodebookOptions::train(const DataSet& data_set, const Settings& settings,
@@ -35,10 +38,14 @@ std::shared_ptr<const Codebook> CodebookOptions::train(const DataSet& data_set, 
                 "'" + data_set.file + "' has no training clouds; give a codebook: --codebook FILE");
   }
   const std::vector<TrainingSample> samples = trainingSamples(data_set, mesh_views_.sampler());
+  WorkShare* const share = workShare();
   auto codebook =
-      std::make_shared<const Codebook>(trainRegistered(samples, settings, data_set.name, progress).codebook);
-  if (!save_.empty()) writeCodebook(save_, *codebook);
-  return codebook;
+      std::make_shared<const Codebook>(trainRegistered(samples, settings, data_set.name, progress, {}, share).codebook);
+  if (!save_.empty() && leads()) writeCodebook(save_, *codebook);
+  if (share == nullptr) return codebook;
+  std::string bytes = share->leads() ? codebookBytes(*codebook) : "";
+  share->spread(bytes);
+  return share->leads() ? codebook : codebookFromBytes(bytes);
 }
 
 }  // namespace sks::tools

@@ -12,6 +12,7 @@
 #include "core/settings/shown_text.hpp"
 #include "core/settings/threads.hpp"
 #include "io/file.hpp"
+#include "tools/cluster/cluster.hpp"
 
 namespace sks::tools {
 
@@ -52,7 +53,7 @@ void JsonOption::add(CLI::App& command) {
 }
 
 void JsonOption::check() const {
-  if (!path_.empty() && !onStdout()) checkWritable(path_);
+  if (!path_.empty() && !onStdout() && leads()) checkWritable(path_);
 }
 
 void JsonOption::write(const nlohmann::json& json) const {
@@ -66,6 +67,7 @@ void JsonOption::write(const nlohmann::json& json) const {
 }
 
 void warn(const std::string& message) {
+  if (!leads()) return;
   std::cerr << "sks: warning: " << shownMessage(message) << std::endl;
 }
 

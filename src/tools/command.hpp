@@ -27,6 +27,7 @@
 namespace sks::tools {
 
 void addTrain(CLI::App& app);
+void addMerge(CLI::App& app);
 void addDetect(CLI::App& app);
 void addEvaluate(CLI::App& app);
 void addClassify(CLI::App& app);
@@ -59,6 +60,8 @@ public:
 
   /// True if stdout belongs to the JSON: no table may be printed to it then.
   bool onStdout() const { return path_ == "-"; }
+  /// Empty where --json was not given.
+  const std::string& path() const { return path_; }
 
   /// Throws what write() would throw, before the work is done whose results it writes. @throws Error(bad_file)
   void check() const;

@@ -1,14 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <memory>
+#include <optional>
 
 #include <sks_detector/cloud_io.hpp>
+#include <sks_detector/error.hpp>
+#include <sks_detector/settings_file.hpp>
 
 #include "evaluation/evaluation.hpp"
 #include "evaluation/registered_truth.hpp"
+#include "evaluation/shared_scoring.hpp"
+#include "io/crc32c.hpp"
 #include "io/dataset.hpp"
 #include "io/file.hpp"
 #include "tools/bop_results.hpp"
+#include "tools/cluster/cluster.hpp"
+#include "tools/cluster/journal.hpp"
 #include "tools/codebook_options.hpp"
+#include "tools/codebook_summary.hpp"
 #include "tools/command.hpp"
 #include "tools/evaluation_json.hpp"
 #include "tools/evaluation_plots.hpp"
@@ -28,7 +36,20 @@ struct EvaluateOptions {
   CodebookOptions codebook;
   SettingsOptions settings;
   JsonOption json;
+  bool resume = false;
 };
+
+/// What the detections of a run depend on, in one line for its journal.
+std::string workOf(const EvaluateOptions& options, const DataSet& data_set, const Codebook& codebook,
+                   Settings settings) {
+  settings.threads = Settings().threads;
+  nlohmann::json own;
+  options.method.addSettings(own);
+  std::string all = settingsToYaml(settings) + own.dump() + std::to_string(data_set.scale);
+  for (const Scene& scene : data_set.scenes) all += "\n" + scene.name + "\n" + scene.path;
+  return std::string(SKS_VERSION) + " codebook " + checksumText(codebook) + " method " + options.method.name() +
+         " settings and scenes " + std::to_string(crc32c(all.data(), all.size()));
+}
 
 void run(EvaluateOptions& options) {
   std::shared_ptr<const Codebook> codebook = options.codebook.read();
@@ -37,12 +58,15 @@ void run(EvaluateOptions& options) {
   const DataSet data_set = loadDataSet(options.dataset);
   for (const std::string& warning : data_set.warnings) warn(warning);
   options.json.check();  // what cannot be written is found before the work is done
+  if (options.resume && (options.json.path().empty() || options.json.onStdout())) {
+    throw Error(ErrorCode::bad_usage, "--resume needs --json FILE: its journal is written beside that file");
+  }
   options.codebook.check();
   if (!options.bop_results.empty()) {
     checkBopNames(data_set);
-    checkWritable(options.bop_results);
+    if (leads()) checkWritable(options.bop_results);
   }
-  if (!options.plot.empty()) preparePlots(options.plot);
+  if (!options.plot.empty() && leads()) preparePlots(options.plot);
 
   ProgressBar bar;
   if (!codebook) codebook = options.codebook.train(data_set, settings, bar.callback());
@@ -52,13 +76,20 @@ void run(EvaluateOptions& options) {
     warn("object '" + object + "' of the ground truth was never trained: it counts as missed");
   }
   const DetectFunction detect = options.method.detectFunction(codebook, settings);
-  Evaluation evaluation =
-      evaluate(registeredTruth(data_set, *codebook), detect, options.method.name(), settings, bar.callback());
-  scoreAsBop(evaluation, data_set, objectModels(data_set), threadCount(settings), bar.callback());
+  std::optional<Journal> journal;
+  if (options.resume && leads()) {
+    journal.emplace(options.json.path() + ".journal", workOf(options, data_set, *codebook, settings));
+  }
+  JournaledShare journaled(workShare(), journal ? &*journal : nullptr);
+  Evaluation evaluation = evaluate(registeredTruth(data_set, *codebook), detect, options.method.name(), settings,
+                                   bar.callback(), options.resume ? &journaled : workShare());
+  scoreAsBop(evaluation, data_set, objectModels(data_set), threadCount(settings), bar.callback(), workShare());
+  if (!leads()) return;
   bar.clear();
   nlohmann::json json = evaluationJson(evaluation, codebook->objects);
   options.method.addSettings(json["settings"]);
   options.json.write(json);
+  if (journal) journal->remove();
   if (!options.bop_results.empty()) writeFileAtomically(options.bop_results, bopResults(data_set, evaluation));
   if (!options.json.onStdout()) print(evaluationTable(evaluation));
   if (options.plot.empty()) return;
@@ -81,6 +112,9 @@ void addEvaluate(CLI::App& app) {
   options->method.add(*command, MethodTask::scenes);
   options->settings.add(*command);
   options->json.add(*command);
+  command->add_flag("--resume", options->resume,
+                    "keep a journal beside the file of --json (FILE.journal) until that is written, and go on where a "
+                    "run that was ended has stopped");
   command->add_option("--plot", options->plot, "draw precision-recall curves, thresholds, times and each scene")
       ->type_name("DIR");
   command

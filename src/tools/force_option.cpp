@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include <sks_detector/codebook_file.hpp>
 #include <sks_detector/error.hpp>
 
 #include "io/file.hpp"
@@ -34,6 +35,10 @@ void ForceOption::add(CLI::App& command) {
   command.add_flag("--force", force_, "write also where a data set is: files of the same names are replaced");
 }
 
+void ForceOption::addForCodebook(CLI::App& command) {
+  command.add_flag("--force", force_, "replace a codebook that is there");
+}
+
 void ForceOption::checkFolder(const std::string& folder) const {
   const fs::path file = fs::path(folder) / "dataset.yaml";
   if (isThere(file)) refuse(folder, "holds a data set already (dataset.yaml)");
@@ -50,6 +55,14 @@ void ForceOption::write(const std::string& file, const std::string& text) const 
   if (force_) {
     writeFileAtomically(file, text);
   } else if (!writeNewFileAtomically(file, text)) {
+    refuse(file, "is there already");
+  }
+}
+
+void ForceOption::write(const std::string& file, const Codebook& codebook) const {
+  if (force_) {
+    writeCodebook(file, codebook);
+  } else if (!writeNewCodebook(file, codebook)) {
     refuse(file, "is there already");
   }
 }

@@ -5,6 +5,7 @@
 #include "evaluation/keypoint_study.hpp"
 #include "io/dataset.hpp"
 #include "io/file.hpp"
+#include "tools/cluster/cluster.hpp"
 #include "tools/command.hpp"
 #include "tools/keypoint_report.hpp"
 #include "tools/plot_script.hpp"
@@ -32,13 +33,14 @@ void run(const KeypointsOptions& options) {
   const DataSet data_set = loadDataSet(options.dataset);
   for (const std::string& warning : data_set.warnings) warn(warning);
   options.json.check();  // what cannot be written is found before the work is done
-  if (!options.plot.empty()) {
+  if (!options.plot.empty() && leads()) {
     makeFolder(options.plot);
     checkWritable(csvFile(options));
     runPlotScript(script, {"--check"});
   }
   ProgressBar bar;
-  const KeypointStudy study = studyKeypoints(data_set, settings, bar.callback());
+  const KeypointStudy study = studyKeypoints(data_set, settings, bar.callback(), workShare());
+  if (!leads()) return;
   bar.clear();
   if (study.skipped > 0) {
     warn(std::to_string(study.skipped) + " objects of the ground truth have no pose of a training cloud: left out");

@@ -11,14 +11,16 @@
 #include "core/settings/nearest_name.hpp"
 #include "core/settings/shown_text.hpp"
 #include "tools/application.hpp"
+#include "tools/cluster/cluster.hpp"
 #include "tools/progress_bar.hpp"
 
 namespace {
 
-int fail(const std::string& message, int status) {
-  std::cerr << "sks: " << sks::shownMessage(message) << std::endl;
-  return status;
-}
+/// How a run ended; without a message nothing went wrong.
+struct Ending {
+  int status = 0;
+  std::string message;
+};
 
 /// What is wrong with the arguments; CLI11 would not name a misspelt subcommand.
 std::string usageMessage(const CLI::App& app, const CLI::ParseError& error, const std::string& first_argument) {
@@ -32,25 +34,32 @@ std::string usageMessage(const CLI::App& app, const CLI::ParseError& error, cons
          (nearest.empty() ? "" : ": did you mean '" + nearest + "'?");
 }
 
+Ending run(int argc, char** argv) {
+  using namespace sks;
+  const std::unique_ptr<CLI::App> app = tools::makeApplication();
+  const std::string first_argument = argc > 1 ? argv[1] : "";
+  try {
+    tools::joinProcesses(first_argument);
+    app->parse(argc, argv);
+    return {};
+  } catch (const CLI::Success& help) {
+    return {tools::leads() ? app->exit(help) : 0, ""};
+  } catch (const CLI::ParseError& error) {
+    return {2, usageMessage(*app, error, first_argument) + "; see --help"};
+  } catch (const Error& error) {
+    return {error.code() == ErrorCode::bad_usage ? 2 : 1, error.what()};
+  } catch (const std::bad_alloc&) {
+    return {1, "out of memory"};
+  } catch (const std::exception& error) {
+    return {1, error.what()};
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace sks;
   std::locale::global(std::locale::classic());  // files are the same everywhere, whatever a library has set
-  const std::unique_ptr<CLI::App> app = tools::makeApplication();
-  tools::cancelOnInterrupt();
-  try {
-    app->parse(argc, argv);
-    return 0;
-  } catch (const CLI::Success& help) {
-    return app->exit(help);
-  } catch (const CLI::ParseError& error) {
-    return fail(usageMessage(*app, error, argc > 1 ? argv[1] : "") + "; see --help", 2);
-  } catch (const Error& error) {
-    return fail(error.what(), error.code() == ErrorCode::bad_usage ? 2 : 1);
-  } catch (const std::bad_alloc&) {
-    return fail("out of memory", 1);
-  } catch (const std::exception& error) {
-    return fail(error.what(), 1);
-  }
+  sks::tools::cancelOnInterrupt();
+  const Ending ending = run(argc, argv);
+  return sks::tools::endRun(ending.status, ending.message);
 }

@@ -11,6 +11,7 @@
 
 #include "core/settings/number_format.hpp"
 #include "core/settings/shown_text.hpp"
+#include "tools/cluster/cluster.hpp"
 
 namespace sks::tools {
 namespace {
@@ -41,7 +42,7 @@ void cancelOnInterrupt() {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
-ProgressBar::ProgressBar() : terminal_(::isatty(STDERR_FILENO) == 1) {}
+ProgressBar::ProgressBar() : terminal_(leads() && ::isatty(STDERR_FILENO) == 1) {}
 
 ProgressBar::~ProgressBar() {
   clear();

@@ -11,6 +11,7 @@
 #include "simulation/scene.hpp"
 #include "simulation/sequence.hpp"
 #include "tools/bag.hpp"
+#include "tools/cluster/cluster.hpp"
 #include "tools/command.hpp"
 #include "tools/force_option.hpp"
 #include "tools/mesh_options.hpp"
@@ -99,6 +100,9 @@ std::size_t addSequence(const std::vector<SceneModel>& models, const SceneOption
 }
 
 void run(const SimulateOptions& options) {
+  const bool is_sequence = options.sequence_option->count() > 0;
+  const bool in_order = !options.twin.empty() || is_sequence || options.bag_option->count() > 0;
+  if (in_order && !leads()) return;  // one process writes it
   if (!options.twin.empty()) return runTwin(options);
   if (!options.meshes.any()) {
     throw Error(ErrorCode::bad_usage, "there is nothing to simulate: give --builtin or --mesh NAME=FILE");
@@ -116,22 +120,26 @@ void run(const SimulateOptions& options) {
   validate(scene);
   const std::vector<TrainingEntry> entries = options.meshes.entries();
   const std::vector<SceneModel> models = loadModels(entries);
-  options.force.checkFolder(options.output);
+  if (leads()) options.force.checkFolder(options.output);
   SimulatedSet set(options.output, entries, models, std::size_t(options.least_points));
   const std::unique_ptr<BagRecorder> bag = options.bagRecorder(scene.camera);
   ProgressBar bar;
   const Progress progress = bar.callback();
-  const bool is_sequence = options.sequence_option->count() > 0;
   const std::size_t total = is_sequence ? addSequence(models, scene, options.sequence, set, bag.get(), progress)
                                         : std::size_t(options.scenes);
-  for (std::size_t i = 0; !is_sequence && i < total; ++i) {
-    report(progress, {"simulating", "", i, total});
+  const auto simulate = [&](std::size_t i) {
     const SimulatedScene simulated = simulateScene(models, scene, i);
-    set.add(simulated);
-    if (!bag) continue;
-    for (int k = 0; k < options.repeat; ++k)
+    for (int k = 0; bag && k < options.repeat; ++k)
       bag->add(simulated.view.cloud, simulated.T_table_camera, set.truth(simulated));
-  }
+    return set.write(simulated, i);
+  };
+  dealOut<std::string>(
+      in_order ? nullptr : workShare(), is_sequence ? 0 : total, simulate,
+      [&](std::size_t, const std::string& written) { set.list(written); },
+      [&](std::size_t done) {
+        report(progress, {"simulating", "", done, total});
+      });
+  if (!leads()) return;
   if (bag) bag->finish();
   const std::string file = set.finish(options.force);
   bar.clear();

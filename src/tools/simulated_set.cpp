@@ -7,6 +7,7 @@
 
 #include "io/file.hpp"
 #include "simulation/mesh_symmetry.hpp"
+#include "tools/cluster/cluster.hpp"
 #include "tools/data_set_yaml.hpp"
 #include "tools/scene_files.hpp"
 
@@ -22,7 +23,7 @@ constexpr double hidden = 0.001;  // share of what cannot be seen at all: 0 woul
 SimulatedSet::SimulatedSet(const std::string& folder, const std::vector<TrainingEntry>& training,
                            const std::vector<SceneModel>& models, std::size_t least_points)
     : folder_(folder), least_points_(least_points) {
-  makeFolder((fs::path(folder) / "scenes").string());
+  if (leads()) makeFolder((fs::path(folder) / "scenes").string());
   for (std::size_t i = 0; i < models.size(); ++i) {
     sources_.push_back(relativeSource(models[i].source, folder));
     objects_.push_back(models[i].object);
@@ -47,20 +48,25 @@ std::vector<Detection> SimulatedSet::truth(const SimulatedScene& scene) const {
   return truth;
 }
 
-void SimulatedSet::add(const SimulatedScene& scene) {
+std::string SimulatedSet::write(const SimulatedScene& scene, std::size_t number) const {
   char name[32];
-  std::snprintf(name, sizeof(name), "scene%03d", count_++);
+  std::snprintf(name, sizeof(name), "scene%03zu", number);
   const std::string base = (fs::path(folder_) / "scenes" / name).string();
   writeSceneFiles(base, scene.view.cloud);
   std::vector<std::size_t> points;
   for (const ScenePlacement& placed : scene.objects) points.push_back(placed.points);
   Scene entry = groundTruthScene(name, truth(scene), points, least_points_);
   entry.path = std::string("scenes/") + name + ".pcd";
-  scenes_ += sceneYaml(entry);
+  return sceneYaml(entry);
+}
+
+void SimulatedSet::list(const std::string& written) {
+  scenes_ += written;
+  ++count_;
 }
 
 void SimulatedSet::add(const SimulatedScene& scene, double stamp) {
-  add(scene);
+  list(write(scene, count_));
   const Eigen::Vector3d p = scene.T_table_camera.translation();
   const Eigen::Quaterniond q(scene.T_table_camera.linear());
   char line[200];

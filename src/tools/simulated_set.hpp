@@ -16,15 +16,18 @@ namespace sks::tools {
 class SimulatedSet {
 public:
   /// @param least_points objects on which fewer were measured are ignored
-  /// @throws Error(bad_file) if the folder cannot be made
+  /// The folder is made by the process that leads. @throws Error(bad_file) if it cannot be made
   SimulatedSet(const std::string& folder, const std::vector<TrainingEntry>& training,
                const std::vector<SceneModel>& models, std::size_t least_points = 0);
 
-  /// The same as add(), and where and when it was taken, for camera.txt.
+  /// Writes and lists the next scene, and where and when it was taken, for camera.txt.
   void add(const SimulatedScene& scene, double stamp);
 
   /// Writes cloud, colour picture (PNG) and depth picture (16-bit PNG, mm). @throws Error(bad_file)
-  void add(const SimulatedScene& scene);
+  /// @return the scene for list()
+  std::string write(const SimulatedScene& scene, std::size_t number) const;
+  /// Lists a scene that was written, after those that are listed already.
+  void list(const std::string& written);
 
   /// What stands in a scene, in the camera's frame: model frames, boxes, and the share that is seen as the score.
   std::vector<Detection> truth(const SimulatedScene& scene) const;
@@ -41,7 +44,7 @@ private:
   std::string training_, scenes_;           // parts of dataset.yaml
   std::string trajectory_;                  // lines of camera.txt
   std::size_t least_points_;
-  int count_ = 0;
+  std::size_t count_ = 0;  // of scenes that are listed
 };
 
 }  // namespace sks::tools

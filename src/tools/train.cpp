@@ -10,11 +10,13 @@
 #include <sks_detector/registration.hpp>
 #include <sks_detector/trainer.hpp>
 
+#include "core/pipeline/shared_training.hpp"
 #include "core/pipeline/stopwatch.hpp"
 #include "core/settings/name_text.hpp"
 #include "io/codebook_layout.hpp"
 #include "io/dataset.hpp"
 #include "io/file.hpp"
+#include "tools/cluster/cluster.hpp"
 #include "tools/codebook_summary.hpp"
 #include "tools/command.hpp"
 #include "tools/mesh_options.hpp"
@@ -60,9 +62,9 @@ void run(const TrainOptions& options) {
   Settings settings;
   options.settings.apply(settings);
   const DataSet data_set = trainingSet(options);
-  checkWritable(options.output);  // before training takes its time
+  if (leads()) checkWritable(options.output);  // before training takes its time
   options.json.check();
-  if (!options.models.empty()) {
+  if (!options.models.empty() && leads()) {
     std::vector<std::string> objects;
     for (const TrainingEntry& entry : data_set.training) objects.push_back(entry.object);
     prepareModelExport(options.models, objects);
@@ -72,7 +74,8 @@ void run(const TrainOptions& options) {
   ProgressBar bar;
   const RegisteredTraining trained =
       trainRegistered(trainingSamples(data_set, options.mesh_views.sampler()), settings,
-                      options.name.empty() ? data_set.name : options.name, bar.callback());
+                      options.name.empty() ? data_set.name : options.name, bar.callback(), {}, workShare());
+  if (!leads()) return;
   const Codebook& codebook = trained.codebook;
   bar.clear();
   for (const std::string& warning : registrationWarnings(trained.objects)) warn(warning);

@@ -22,9 +22,9 @@ RepeatedWords::Cell RepeatedWords::cellOf(const Codeword& word) const {
   return {cell(word.position.x()), cell(word.position.y()), cell(word.position.z())};
 }
 
-bool RepeatedWords::repeats(const std::string& frame, const Codeword& word, const float* bins, const Quantizer& rows) {
-  const auto known = frames_.find(frame);
-  if (known == frames_.end()) return false;
+bool RepeatedWords::repeats(const std::string& model, const Codeword& word, const float* bins, const Quantizer& rows) {
+  const auto known = models_.find(model);
+  if (known == models_.end()) return false;
   buffer_.resize(rows.cols());
   const auto [x, y, z] = cellOf(word);
   for (int dx = -1; dx <= 1; ++dx) {
@@ -44,8 +44,8 @@ bool RepeatedWords::repeats(const std::string& frame, const Codeword& word, cons
   return false;
 }
 
-void RepeatedWords::add(const std::string& frame, const Codeword& word, std::uint32_t index) {
-  frames_[frame][cellOf(word)].push_back({word, index});
+void RepeatedWords::add(const std::string& model, const Codeword& word, std::uint32_t index) {
+  models_[model][cellOf(word)].push_back({word, index});
 }
 
 }  // namespace sks

@@ -21,12 +21,12 @@ public:
   /// @param same_place how near two words of one place are at most [m]
   explicit RepeatedWords(float same_place) : same_place_(same_place) {}
 
-  /// Whether an earlier word of the frame is near in place, rotation and descriptor.
-  /// @param rows those of the words that were added
-  bool repeats(const std::string& frame, const Codeword& word, const float* bins, const Quantizer& rows);
+  /// Whether an earlier word of the model is near in place, rotation and descriptor.
+  /// @param model object and model frame, by any text @param rows those of the words that were added
+  bool repeats(const std::string& model, const Codeword& word, const float* bins, const Quantizer& rows);
 
   /// @param index of the word, and of its row
-  void add(const std::string& frame, const Codeword& word, std::uint32_t index);
+  void add(const std::string& model, const Codeword& word, std::uint32_t index);
 
 private:
   using Cell = std::tuple<int, int, int>;
@@ -38,7 +38,7 @@ private:
   Cell cellOf(const Codeword& word) const;
 
   float same_place_;
-  std::map<std::string, std::map<Cell, std::vector<Place>>> frames_;
+  std::map<std::string, std::map<Cell, std::vector<Place>>> models_;
   std::vector<float> buffer_;
 };
 

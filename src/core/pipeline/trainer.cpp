@@ -12,8 +12,10 @@
 #include "core/descriptors/shot.hpp"
 #include "core/matching/background_words.hpp"
 #include "core/pipeline/default_stages.hpp"
+#include "core/pipeline/prepared_view.hpp"
 #include "core/pipeline/repeated_words.hpp"
 #include "core/pipeline/scene_description.hpp"
+#include "core/pipeline/shared_training.hpp"
 #include "core/settings/name_text.hpp"
 #include "core/settings/threads.hpp"
 
@@ -72,15 +74,6 @@ Eigen::Isometry3f motionOf(const TrainingView& view) {
   return view.T_model_source ? view.T_model_source->cast<float>() : Eigen::Isometry3f::Identity();
 }
 
-/// What a training cloud becomes.
-struct PreparedView {
-  std::string object;
-  bool rendered = false;
-  TrainingView view;
-  Keypoints keypoints;
-  Descriptors descriptors;
-};
-
 /// The view, none where it shows too little, or why it cannot be used.
 struct Preparation {
   std::optional<PreparedView> view;
@@ -137,6 +130,27 @@ public:
   void add(Preparation preparation) {
     if (preparation.failure) std::rethrow_exception(preparation.failure);
     if (preparation.view) add(std::move(*preparation.view));
+  }
+
+  /// For another builder, which takes it with take(). Samples are to come in their order, but not all of them.
+  SharedView prepareShared(const TrainingSample& sample) {
+    const Cloud loaded = sample.load();
+    SharedView shared;
+    shared.colorless = sample.rendered || !loaded.hasColor();
+    if (may_drop_color_ && shared.colorless) dropColor();
+    if (showsTooLittle(sample, loaded, codebook_.settings)) return shared;
+    const bool colorless = shared.colorless;
+    shared = sharedView(prepared(sample, loaded));
+    shared.colorless = colorless;
+    return shared;
+  }
+
+  /// @param shared what another builder made of the sample
+  void take(const TrainingSample& sample, SharedView shared) {
+    if (may_drop_color_ && shared.colorless) dropColor();
+    if (!shared.described) return;
+    if (shared.cols() > 0 && shared.cols() != rows_.cols()) return add(sample);  // it did not know of a cloud before it
+    add(preparedView(std::move(shared), sample));
   }
 
   int threads() const {
@@ -213,6 +227,7 @@ private:
     const Eigen::Isometry3f T = motionOf(prepared.view);
     const Descriptors& descriptors = prepared.descriptors;
     const bool may_repeat = prepared.rendered && verifiesPoses(codebook_.settings);
+    const std::string model = prepared.object + "\n" + prepared.view.frame;  // two objects may have one mesh
     for (std::size_t row = 0; row < descriptors.keypoints.size(); ++row) {
       Codeword word;
       word.view = std::uint32_t(codebook_.views.size());
@@ -220,8 +235,8 @@ private:
       word.frame = descriptors.frames[row] * T.linear().transpose();
       const float* bins = descriptors.values.row(row);
       if (may_repeat) {
-        if (repeated_.repeats(prepared.view.frame, word, bins, rows_)) continue;
-        repeated_.add(prepared.view.frame, word, std::uint32_t(codebook_.words.size()));
+        if (repeated_.repeats(model, word, bins, rows_)) continue;
+        repeated_.add(model, word, std::uint32_t(codebook_.words.size()));
       }
       addDescriptor(bins);
       codebook_.words.push_back(word);
@@ -247,25 +262,40 @@ private:
   RepeatedWords repeated_;      // of meshes
 };
 
-}  // namespace
+/// Runs something that works on a sample, whose source then stands in its errors.
+template <typename Function>
+auto onSample(const TrainingSample& sample, const Function& function) {
+  try {
+    return function();
+  } catch (const Error& error) {
+    throw Error(error.code(), sample.source + ": " + error.what());
+  }
+}
 
-Codebook train(const std::vector<TrainingSample>& samples, const Settings& settings, const std::string& name,
-               const Progress& progress, const Stages& stages) {
-  validate(settings);
-  if (samples.empty()) throw Error(ErrorCode::bad_usage, "there is nothing to train: no training cloud was given");
-  if (!name.empty()) checkName(name, "the codebook's name");
-  for (const TrainingSample& sample : samples) checkName(sample.object, "the object's name");
-  CodebookBuilder builder(settings, name, stages);
+/// The samples by the processes of a share; those that are not the leader leave the builder as it is.
+void addShared(WorkShare& share, const std::vector<TrainingSample>& samples, const Settings& settings,
+               const Progress& progress, const Stages& stages, CodebookBuilder& builder) {
+  std::optional<CodebookBuilder> describer;  // of the thread that works here
+  dealOut<SharedView>(
+      &share, samples.size(),
+      [&](std::size_t i) {
+        if (!describer) describer.emplace(settings, "", stages);
+        return onSample(samples[i], [&] { return describer->prepareShared(samples[i]); });
+      },
+      [&](std::size_t i, SharedView view) { onSample(samples[i], [&] { builder.take(samples[i], std::move(view)); }); },
+      [&](std::size_t done) {
+        report(progress, {"training", done < samples.size() ? samples[done].source : "", done, samples.size()});
+      });
+}
+
+void addHere(const std::vector<TrainingSample>& samples, const Progress& progress, CodebookBuilder& builder) {
   const std::size_t most_at_once = views_of_thread * std::size_t(builder.threads());
   std::vector<Preparation> rendered;  // from sample `first_rendered` on
   std::size_t first_rendered = 0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     report(progress, {"training", samples[i].source, i, samples.size()});
-    try {
-      if (!samples[i].rendered) {
-        builder.add(samples[i]);
-        continue;
-      }
+    onSample(samples[i], [&] {
+      if (!samples[i].rendered) return builder.add(samples[i]);
       if (i >= first_rendered + rendered.size()) {
         first_rendered = i;
         std::size_t end = i;
@@ -273,9 +303,29 @@ Codebook train(const std::vector<TrainingSample>& samples, const Settings& setti
         rendered = builder.prepareRendered(&samples[i], end - i);
       }
       builder.add(std::move(rendered[i - first_rendered]));
-    } catch (const Error& error) {
-      throw Error(error.code(), samples[i].source + ": " + error.what());
-    }
+    });
+  }
+}
+
+}  // namespace
+
+Codebook train(const std::vector<TrainingSample>& samples, const Settings& settings, const std::string& name,
+               const Progress& progress, const Stages& stages) {
+  return train(samples, settings, name, progress, stages, nullptr);
+}
+
+Codebook train(const std::vector<TrainingSample>& samples, const Settings& settings, const std::string& name,
+               const Progress& progress, const Stages& stages, WorkShare* share) {
+  validate(settings);
+  if (samples.empty()) throw Error(ErrorCode::bad_usage, "there is nothing to train: no training cloud was given");
+  if (!name.empty()) checkName(name, "the codebook's name");
+  for (const TrainingSample& sample : samples) checkName(sample.object, "the object's name");
+  CodebookBuilder builder(settings, name, stages);
+  if (share == nullptr) {
+    addHere(samples, progress, builder);
+  } else {
+    addShared(*share, samples, settings, progress, stages, builder);
+    if (!share->leads()) return {};
   }
   for (const TrainingSample& sample : samples) {
     if (builder.knows(sample.object)) continue;

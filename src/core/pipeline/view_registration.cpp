@@ -5,9 +5,40 @@
 #include <cstdint>
 #include <utility>
 
+#include "core/pipeline/shared_training.hpp"
 #include "core/registration/model_fusion.hpp"
 
 namespace sks {
+template <typename Archive>
+void fields(Archive& archive, RegisteredView& v) {
+  archive(v.sample, v.source, v.T_model_view, v.reason, v.sensor);
+}
+
+template <typename Archive>
+void fields(Archive& archive, LoopErrors& e) {
+  archive(e.loops, e.median_shift, e.largest_shift, e.median_angle, e.largest_angle);
+}
+
+template <typename Archive>
+void fields(Archive& archive, Rgb& color) {
+  archive(color.r, color.g, color.b);
+}
+
+template <typename Archive>
+void fields(Archive& archive, FusedModel& model) {
+  archive(model.points, model.normals, model.colors, model.box);
+}
+
+template <typename Archive>
+void fields(Archive& archive, Symmetry& symmetry) {
+  archive(symmetry.axis, symmetry.order);
+}
+
+template <typename Archive>
+void fields(Archive& archive, RegisteredObject& o) {
+  archive(o.object, o.frame, o.views, o.on_plane, o.loops, o.model, o.symmetry);
+}
+
 namespace {
 
 bool isCaptured(const TrainingSample& sample) {
@@ -55,6 +86,26 @@ void registerObject(RegisteredObject& object, const std::vector<TrainingSample>&
   for (RegisteredView& view : object.views) view.sample = indices[view.sample];
 }
 
+void registerShared(WorkShare& share, std::vector<RegisteredObject>& objects,
+                    const std::vector<TrainingSample>& samples, const Settings& settings, const Progress& progress,
+                    const Stages& stages) {
+  const std::vector<RegisteredObject> unregistered = objects;
+  dealOut<RegisteredObject>(
+      &share, objects.size(),
+      [&](std::size_t i) {
+        RegisteredObject object = unregistered[i];
+        registerObject(object, samples, settings, {}, stages);
+        return object;
+      },
+      [&](std::size_t i, RegisteredObject object) { objects[i] = std::move(object); },
+      [&](std::size_t done) {
+        report(progress, {"registering", done < objects.size() ? unregistered[done].object : "", done, objects.size()});
+      });
+  std::string bytes = share.leads() ? bytesOf(objects) : "";
+  share.spread(bytes);
+  objects = fromBytes<std::vector<RegisteredObject>>(bytes);
+}
+
 /// Puts the models of the objects into the codebook, which knows all of them.
 void addModels(RegisteredTraining& trained) {
   Codebook& codebook = trained.codebook;
@@ -71,6 +122,11 @@ void addModels(RegisteredTraining& trained) {
 
 ViewRegistration registerViews(const std::vector<TrainingSample>& samples, const Settings& settings,
                                const Progress& progress, const Stages& stages) {
+  return registerViews(samples, settings, progress, stages, nullptr);
+}
+
+ViewRegistration registerViews(const std::vector<TrainingSample>& samples, const Settings& settings,
+                               const Progress& progress, const Stages& stages, WorkShare* share) {
   validate(settings);
   ViewRegistration registration{samples, capturedObjects(samples)};
   if (settings.training.register_views != RegisterViews::on) {
@@ -79,8 +135,9 @@ ViewRegistration registerViews(const std::vector<TrainingSample>& samples, const
                                  [&](const RegisteredObject& object) { return !planesKnown(object, samples); }),
                   objects.end());
   }
+  if (share != nullptr) registerShared(*share, registration.objects, samples, settings, progress, stages);
   for (RegisteredObject& object : registration.objects) {
-    registerObject(object, samples, settings, progress, stages);
+    if (share == nullptr) registerObject(object, samples, settings, progress, stages);
     for (const RegisteredView& view : object.views) {
       if (!view.T_model_view) continue;
       TrainingSample& sample = registration.samples[view.sample];
@@ -94,13 +151,19 @@ ViewRegistration registerViews(const std::vector<TrainingSample>& samples, const
 
 RegisteredTraining trainRegistered(const std::vector<TrainingSample>& samples, const Settings& settings,
                                    const std::string& name, const Progress& progress, const Stages& stages) {
+  return trainRegistered(samples, settings, name, progress, stages, nullptr);
+}
+
+RegisteredTraining trainRegistered(const std::vector<TrainingSample>& samples, const Settings& settings,
+                                   const std::string& name, const Progress& progress, const Stages& stages,
+                                   WorkShare* share) {
   if (settings.training.register_views == RegisterViews::off) {
-    return {train(samples, settings, name, progress, stages), {}};
+    return {train(samples, settings, name, progress, stages, share), {}};
   }
-  ViewRegistration registration = registerViews(samples, settings, progress, stages);
-  RegisteredTraining trained{train(registration.samples, settings, name, progress, stages),
+  ViewRegistration registration = registerViews(samples, settings, progress, stages, share);
+  RegisteredTraining trained{train(registration.samples, settings, name, progress, stages, share),
                              std::move(registration.objects)};
-  addModels(trained);
+  if (share == nullptr || share->leads()) addModels(trained);
   return trained;
 }
 

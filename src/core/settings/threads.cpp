@@ -2,18 +2,23 @@
 #include "core/settings/threads.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <future>
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "core/settings/core_share.hpp"
 
 namespace sks {
 namespace {
 
 constexpr int always_allowed = 16;  // whatever the machine has: so many can be tried anywhere
 
+std::atomic<int> processes_here{1};  // that share the cores
+
 int cores() {
-  return std::max(1, int(std::thread::hardware_concurrency()));
+  return std::max(1, int(std::thread::hardware_concurrency()) / processes_here);
 }
 
 /// Starts threads that are there at one time, and ends them; why that fails, or nothing.
@@ -35,6 +40,10 @@ std::string failureToStart(int count) {
 }
 
 }  // namespace
+
+void shareCores(int processes) {
+  processes_here = std::max(1, processes);
+}
 
 int mostThreads() {
   return std::max(always_allowed, cores());
