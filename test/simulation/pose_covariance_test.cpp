@@ -23,7 +23,7 @@
 namespace sks {
 namespace {
 
-constexpr double degree = EIGEN_PI / 180;
+constexpr double one_degree = EIGEN_PI / 180;
 
 /// A detection of an object that stands on a table, and the error of its pose.
 struct Measured {
@@ -85,9 +85,9 @@ TEST(PoseCovariance, TheTurnOfABottleIsNotKnown) {
   const std::vector<Measured> all = measure("bottle", "kinect", 4);
   ASSERT_FALSE(all.empty());
   for (const Measured& measured : all) {
-    EXPECT_LT(measured.deviation(3), 2 * degree);
-    EXPECT_LT(measured.deviation(4), 2 * degree);
-    EXPECT_GT(measured.deviation(5), 20 * degree);
+    EXPECT_LT(measured.deviation(3), 2 * one_degree);
+    EXPECT_LT(measured.deviation(4), 2 * one_degree);
+    EXPECT_GT(measured.deviation(5), 20 * one_degree);
     EXPECT_LT(measured.deviation(0), 0.01);
     EXPECT_LT(measured.deviation(2), 0.002);
   }
