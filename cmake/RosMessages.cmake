@@ -5,8 +5,8 @@
 set(sks_ros OFF)
 set(sks_message_dependencies)
 find_package(catkin QUIET COMPONENTS
-  diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs message_generation nodelet pcl_ros pluginlib
-  rosbag roscpp sensor_msgs std_msgs std_srvs tf2_eigen tf2_msgs tf2_ros tf2_sensor_msgs
+  actionlib actionlib_msgs diagnostic_msgs diagnostic_updater dynamic_reconfigure geometry_msgs message_generation nodelet
+  pcl_ros pluginlib rosbag roscpp sensor_msgs std_msgs std_srvs tf2_eigen tf2_msgs tf2_ros tf2_sensor_msgs
   visualization_msgs)
 if(catkin_FOUND)
   set(sks_ros ON)
@@ -18,6 +18,7 @@ if(sks_ros)
   add_message_files(FILES Detection.msg DetectionArray.msg Status.msg Support.msg)
   add_service_files(FILES CaptureView.srv Detect.srv Info.srv LoadCodebook.srv RemoveObject.srv SaveCodebook.srv
     Train.srv UndoCapture.srv)
-  generate_messages(DEPENDENCIES geometry_msgs sensor_msgs std_msgs)
-  set(sks_message_dependencies geometry_msgs message_runtime sensor_msgs std_msgs)
+  add_action_files(FILES Train.action)
+  generate_messages(DEPENDENCIES actionlib_msgs geometry_msgs sensor_msgs std_msgs)
+  set(sks_message_dependencies actionlib_msgs geometry_msgs message_runtime sensor_msgs std_msgs)
 endif()

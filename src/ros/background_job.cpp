@@ -52,9 +52,7 @@ void BackgroundJob::run(const Work& work, const std::function<void(const sks::Pr
 void BackgroundJob::begin() {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (stopped_) throw sks::Error(sks::ErrorCode::bad_usage, "the node shuts down");
-  if (running_) {
-    throw sks::Error(sks::ErrorCode::bad_usage, "a training runs already: wait for it, or end it by ~cancel_training");
-  }
+  if (running_) throw sks::Error(sks::ErrorCode::bad_usage, training_runs);
   running_ = true;
   cancelled_ = false;
 }

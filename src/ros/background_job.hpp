@@ -8,6 +8,9 @@
 
 namespace sks_detector {
 
+/// What is said to who wants a training while another one runs.
+constexpr const char* training_runs = "a training runs already: wait for it, or end it by ~cancel_training";
+
 /// Runs long work in threads of low priority, one at a time, so that it takes what others leave. Safe to use from
 /// several threads.
 class BackgroundJob {

@@ -56,10 +56,11 @@ std::string describe(const sks::ViewQuality& quality) {
 }  // namespace
 
 void CloudServices::detect(const Detect::Request& request, Detect::Response& response) {
+  const DetectionQuery query = toQuery(request);  // before the camera is waited for
   const bool given = !request.cloud.data.empty() || request.cloud.width != 0;
   const auto cloud =
       given ? boost::make_shared<const sensor_msgs::PointCloud2>(request.cloud) : nextCloud(request.timeout);
-  response.detections = context_.node.detect(cloud);
+  response.detections = context_.node.detect(cloud, query);
   response.message = counted(response.detections.detections.size(), "detection") + " with " +
                      response.detections.codebook + " in " +
                      sks::toText(int(1000 * response.detections.processing_time)) + " ms";

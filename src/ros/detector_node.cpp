@@ -171,16 +171,18 @@ bool DetectorNode::detect(const sensor_msgs::PointCloud2& cloud, const NodeSetti
   return false;
 }
 
-DetectionArray DetectorNode::detect(const sensor_msgs::PointCloud2& cloud) {
+DetectionArray DetectorNode::detect(const sensor_msgs::PointCloud2& cloud, const DetectionQuery& query) {
   const auto start = CloudInput::Clock::now();
-  DetectionArray detections = frame_detector_.detect(cloud, nodeSettings(), {}).detections;
+  DetectionArray detections = frame_detector_.detect(cloud, nodeSettings(), {}, query).detections;
   detections.processing_time = secondsSince(start);
   return detections;
 }
 
 NodeAccess DetectorNode::nodeAccess() {
   return {[this](double timeout) { return input_.next(timeout); },
-          [this](const sensor_msgs::PointCloud2ConstPtr& cloud) { return detect(*cloud); },
+          [this](const sensor_msgs::PointCloud2ConstPtr& cloud, const DetectionQuery& query) {
+            return detect(*cloud, query);
+          },
           [this](bool enabled) { setEnabled(enabled); },
           [this](const sensor_msgs::PointCloud2& cloud) { return frame_detector_.read(cloud, nodeSettings()); }};
 }

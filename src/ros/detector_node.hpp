@@ -48,7 +48,7 @@ private:
   /// False, and an empty array, where the cloud cannot be used; says why.
   bool detect(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings, FrameResult& result);
   NodeAccess nodeAccess();
-  DetectionArray detect(const sensor_msgs::PointCloud2& cloud);
+  DetectionArray detect(const sensor_msgs::PointCloud2& cloud, const DetectionQuery& query);
 
   void setEnabled(bool enabled);
   /// Subscribes or unsubscribes, as somebody listens or not.

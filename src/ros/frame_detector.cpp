@@ -70,6 +70,14 @@ Eigen::Isometry3d FrameDetector::sensorPose(const std_msgs::Header& cloud, const
                             settings.tf_timeout);
 }
 
+Eigen::Isometry3d FrameDetector::regionPose(const std_msgs::Header& cloud, const NodeSettings& settings,
+                                            const std::optional<Region>& region) const {
+  if (!region) return Eigen::Isometry3d::Identity();
+  if (region->frame.empty()) return region->T_frame_region;
+  return transforms_.lookup(withoutSlash(cloud.frame_id), region->frame, cloud.stamp, settings.tf_timeout) *
+         region->T_frame_region;
+}
+
 std::shared_ptr<const sks::Detector> FrameDetector::detector() const {
   auto detector = slot_.detector();
   if (detector) return detector;
@@ -91,14 +99,16 @@ FrameResult FrameDetector::emptyAnswer(const std_msgs::Header& cloud, const Node
 }
 
 FrameResult FrameDetector::detect(const sensor_msgs::PointCloud2& message, const NodeSettings& settings,
-                                  const FrameExtras& extras) const {
+                                  const FrameExtras& extras, const DetectionQuery& query) const {
   const auto used = detector();
+  checkObjects(query, used->codebook());
   sks::Cloud cloud = receivedCloud(message, settings.max_points);
   const Eigen::Isometry3d T_cloud_sensor = sensorPose(message.header, settings);
   cloud.sensor_origin = T_cloud_sensor.translation().cast<float>();
   sks::Inspection inspection;
+  const Eigen::Isometry3d T_cloud_region = regionPose(message.header, settings, query.region);
   std::vector<sks::Detection> found =
-      used->detect(cloud, extras.inspection ? &inspection : nullptr).above(used->settings().detection.threshold);
+      detectWanted(*used, cloud, query, T_cloud_region, extras.inspection ? &inspection : nullptr);
 
   // last: while detecting the transform had time to arrive
   FrameResult result = emptyAnswer(message.header, settings, T_cloud_sensor, used->codebook());

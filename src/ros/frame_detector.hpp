@@ -19,6 +19,7 @@
 #include <sks_detector/tracker.hpp>
 
 #include "io/image_file.hpp"
+#include "ros/detection_query.hpp"
 #include "ros/detector_slot.hpp"
 #include "ros/node_settings.hpp"
 #include "ros/object_tracking.hpp"
@@ -60,9 +61,10 @@ public:
   /// @throws sks::Error for an unusable cloud, or where a transform is missing
   sks::Cloud read(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings) const;
 
-  /// @throws sks::Error without a codebook, for an unusable cloud, or where a transform is missing
-  FrameResult detect(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings,
-                     const FrameExtras& extras) const;
+  /// @throws sks::Error without a codebook, for an unusable cloud, where a transform is missing, or for objects that
+  /// the codebook does not have
+  FrameResult detect(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings, const FrameExtras& extras,
+                     const DetectionQuery& query = {}) const;
 
   /// The same by following what earlier clouds showed (~tracking). Where the transform to ~fixed_frame is missing,
   /// objects are followed in the frame of the cloud, and the result says so. Keypoints and votes are empty.
@@ -79,6 +81,9 @@ private:
   FrameResult emptyAnswer(const std_msgs::Header& cloud, const NodeSettings& settings,
                           const Eigen::Isometry3d& T_cloud_sensor, const sks::Codebook& codebook) const;
   sks::CloudView viewOf(const std_msgs::Header& cloud, const NodeSettings& settings, std::string& warning) const;
+  /// T_cloud_region; identity without a region. @throws sks::Error where the transform is missing
+  Eigen::Isometry3d regionPose(const std_msgs::Header& cloud, const NodeSettings& settings,
+                               const std::optional<Region>& region) const;
   /// T_cloud_sensor. @throws sks::Error where the transform is missing
   Eigen::Isometry3d sensorPose(const std_msgs::Header& cloud, const NodeSettings& settings) const;
 

@@ -2,7 +2,9 @@
 #include "ros/service_context.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
+#include <new>
 #include <utility>
 
 #include <ros/console.h>
@@ -21,8 +23,23 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::size_t longest_failure = 2000;  // bytes; it may quote a request, and goes to log and status
 constexpr std::size_t most_remarks = 3;
 constexpr const char* captured_error = "captured views";
+
+/// What an action says that it throws; empty if it succeeds.
+std::string failureOf(const std::function<void()>& action) {
+  try {
+    action();
+    return "";
+  } catch (const std::bad_alloc&) {
+    return "there is not enough memory for this";
+  } catch (const std::exception& error) {
+    return sks::shown(error.what(), longest_failure);
+  } catch (...) {
+    return "an unknown error";
+  }
+}
 
 }  // namespace
 
@@ -80,6 +97,17 @@ void ServiceContext::writeCodebook(const std::string& path, bool overwrite, cons
                        "'" + path + "' was written and removed by another program: try again");
     }
   }
+}
+
+std::string ServiceContext::attempt(const std::string& name, const std::function<void()>& action) {
+  std::string failure = failureOf(action);
+  if (failure.empty()) {
+    board.clearError(name);
+  } else {
+    ROS_WARN_STREAM(name << ": " << failure);
+    board.setError(name, name + ": " + failure);
+  }
+  return failure;
 }
 
 void ServiceContext::updateStatus() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -44,6 +45,11 @@ struct ServiceContext {
   /// looked at in the same way: it is not replaced unasked.
   /// @throws sks::Error as checkOverwriting() and sks::writeCodebook()
   void writeCodebook(const std::string& path, bool overwrite, const sks::Codebook& codebook) const;
+
+  /// Does what somebody asks for. What it throws is logged and kept in the status, until it works again.
+  /// @param name resolved, of the service
+  /// @return why it failed, for the reply; empty if it did not
+  std::string attempt(const std::string& name, const std::function<void()>& action);
 
   /// Tells the status of captured objects, and of the codebook; does not throw.
   void updateStatus();

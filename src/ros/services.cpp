@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/services.hpp"
 
-#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,20 +11,17 @@
 #include <ros/spinner.h>
 #include <std_srvs/SetBool.h>
 
-#include <sks_detector/error.hpp>
-
-#include "core/settings/shown_text.hpp"
 #include "ros/cloud_services.hpp"
 #include "ros/codebook_services.hpp"
 #include "ros/service_context.hpp"
+#include "ros/train_action_server.hpp"
 #include "ros/training_services.hpp"
 #include "ros/with_queue.hpp"
 
 namespace sks_detector {
 namespace {
 
-constexpr std::size_t longest_failure = 2000;  // bytes; it may quote a request, and goes to log and status
-constexpr int thread_count = 4;                // a training and two that wait for clouds leave one for ~cancel_training
+constexpr int thread_count = 4;  // a training and two that wait for clouds leave one for ~cancel_training
 
 }  // namespace
 
@@ -35,7 +31,8 @@ public:
                  const NodeSettings& settings, NodeAccess node)
       : context_(slot, board, settings, std::move(node)), handle_(withQueue(private_handle, queue_)) {
     context_.updateStatus();
-    advertise<Train>("train", &training_, &TrainingServices::train);
+    using TrainMethod = void (TrainingServices::*)(const Train::Request&, Train::Response&);
+    advertise<Train>("train", &training_, TrainMethod(&TrainingServices::train));
     advertise<std_srvs::Trigger>("cancel_training", &training_, &TrainingServices::cancel);
     advertise<LoadCodebook>("load_codebook", &codebooks_, &CodebookServices::load);
     advertise<SaveCodebook>("save_codebook", &codebooks_, &CodebookServices::save);
@@ -50,6 +47,7 @@ public:
 
   ~Implementation() {
     context_.training.stop();
+    train_action_.stop();
     for (ros::ServiceServer& server : servers_) server.shutdown();
     spinner_.stop();
   }
@@ -68,35 +66,17 @@ private:
     const std::string full_name = handle_.resolveName(name);
     const bool asked_often = name == "info" || name == "detect";
     const boost::function<bool(Request&, Response&)> callback = [=](Request& request, Response& response) {
-      const std::string failure = failureOf([&] { (object->*method)(request, response); });
+      const std::string failure = context_.attempt(full_name, [&] { (object->*method)(request, response); });
       response.success = failure.empty();
       if (failure.empty()) {
         if (!asked_often) ROS_INFO_STREAM(full_name << ": " << response.message);
-        context_.board.clearError(full_name);
       } else {
         response = Response();
         response.message = failure;
-        ROS_WARN_STREAM(full_name << ": " << failure);
-        context_.board.setError(full_name, full_name + ": " + failure);
       }
       return true;  // false would hide the message from the caller
     };
     servers_.push_back(handle_.advertiseService<Request, Response>(name, callback));
-  }
-
-  /// What an action says that it throws; empty if it succeeds.
-  template <typename Action>
-  static std::string failureOf(Action action) {
-    try {
-      action();
-      return "";
-    } catch (const std::bad_alloc&) {
-      return "there is not enough memory for this";
-    } catch (const std::exception& error) {
-      return sks::shown(error.what(), longest_failure);
-    } catch (...) {
-      return "an unknown error";
-    }
   }
 
   ServiceContext context_;
@@ -105,6 +85,7 @@ private:
   CloudServices clouds_{context_};
   ros::CallbackQueue queue_;
   ros::NodeHandle handle_;
+  TrainActionServer train_action_{context_, training_, handle_};
   ros::AsyncSpinner spinner_{thread_count, &queue_};
   std::vector<ros::ServiceServer> servers_;
 };

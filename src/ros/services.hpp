@@ -10,6 +10,7 @@
 
 #include <sks_detector/cloud.hpp>
 
+#include "ros/detection_query.hpp"
 #include "ros/detector_slot.hpp"
 #include "ros/next_cloud.hpp"
 #include "ros/node_settings.hpp"
@@ -21,8 +22,8 @@ namespace sks_detector {
 struct NodeAccess {
   NextCloud next_cloud;
   /// Detects in one cloud with the detector in the slot, as for `~points`: header, ~target_frame.
-  /// @throws sks::Error without a codebook or for an unusable cloud
-  std::function<DetectionArray(const sensor_msgs::PointCloud2ConstPtr& cloud)> detect;
+  /// @throws what FrameDetector::detect() throws
+  std::function<DetectionArray(const sensor_msgs::PointCloud2ConstPtr& cloud, const DetectionQuery& query)> detect;
   /// Starts or stops the processing of `~points`.
   std::function<void(bool enabled)> enable;
   /// The cloud as the detector takes it: in its own frame, with the position of the camera (~sensor_frame).

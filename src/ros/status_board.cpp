@@ -16,6 +16,16 @@ constexpr std::chrono::seconds same_error_period(1);
 
 }  // namespace
 
+std::string progressText(const sks::ProgressState& progress) {
+  const std::string of = progress.total > 0 ? " of " + std::to_string(progress.total) : "";
+  return progress.stage + " " + std::to_string(progress.done) + of +
+         (progress.item.empty() ? "" : ": " + sks::shown(progress.item));
+}
+
+float progressFraction(const sks::ProgressState& progress) {
+  return progress.total > 0 ? float(progress.done) / float(progress.total) : 0;
+}
+
 StatusBoard::StatusBoard(ros::NodeHandle& private_handle, const DetectorSlot& slot)
     : slot_(slot), publisher_(private_handle.advertise<Status>("status", 1, true)) {
   codebookChanged();
@@ -48,10 +58,8 @@ void StatusBoard::trainingStarted() {
 
 void StatusBoard::trainingProgress(const sks::ProgressState& progress) {
   change([&] {
-    const std::string of = progress.total > 0 ? " of " + std::to_string(progress.total) : "";
-    status_.progress = progress.stage + " " + std::to_string(progress.done) + of +
-                       (progress.item.empty() ? "" : ": " + sks::shown(progress.item));
-    status_.progress_fraction = progress.total > 0 ? float(progress.done) / float(progress.total) : 0;
+    status_.progress = progressText(progress);
+    status_.progress_fraction = progressFraction(progress);
     if (Clock::now() - progress_published_ < progress_period) return false;
     progress_published_ = Clock::now();
     return true;

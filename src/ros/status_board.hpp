@@ -22,6 +22,11 @@ namespace sks_detector {
 /// The kind of error of a codebook that cannot be loaded: it goes when another one is in use.
 constexpr const char* codebook_error = "codebook";
 
+/// E.g. "training 12 of 95: mug/003.pcd".
+std::string progressText(const sks::ProgressState& progress);
+/// 0 to 1; 0 where it is not known.
+float progressFraction(const sks::ProgressState& progress);
+
 /// `~status`, latched: published whenever something in it changes. Safe to use from several threads.
 class StatusBoard {
 public:

@@ -23,10 +23,18 @@
 
 namespace sks_detector {
 
-void TrainingServices::train(const Train::Request& request, Train::Response& response) {
-  const auto listener = [this](const sks::ProgressState& state) { context_.board.trainingProgress(state); };
+void TrainingServices::train(const Train::Request& request, Train::Response& response,
+                             const TrainingListener& listener) {
+  const auto progressed = [&](const sks::ProgressState& state) {
+    context_.board.trainingProgress(state);
+    if (listener.progressed) listener.progressed(state);
+  };
   std::vector<std::string> warnings;
-  context_.training.run([&](const sks::Progress& progress) { work(request, progress, response, warnings); }, listener);
+  const auto do_work = [&](const sks::Progress& progress) {
+    if (listener.started) listener.started();
+    work(request, progress, response, warnings);
+  };
+  context_.training.run(do_work, progressed);
   response.message = "detecting with " + response.codebook + ": " + counted(response.objects, "object") + ", " +
                      counted(response.views, "view") + ", " + counted(response.words, "codeword") + ", trained in " +
                      sks::toText(std::round(10 * response.seconds) / 10) + " s" + asRemarks(warnings);

@@ -11,7 +11,6 @@ import rospy
 import rostest
 from dynamic_reconfigure.msg import BoolParameter, Config, DoubleParameter, StrParameter
 from dynamic_reconfigure.srv import Reconfigure
-from sensor_msgs.msg import PointCloud2
 from std_srvs.srv import SetBool
 
 import support
@@ -30,7 +29,7 @@ class AwayTest(unittest.TestCase):
         self.detect = service("detect", Detect, 3 * support.PATIENCE)
         self.away = False
         self.expect_answers()  # connects them all, as does this
-        self.assertIn("no cloud came", self.detect(PointCloud2(), 0.1).message)
+        self.assertIn("no cloud came", self.detect(timeout=0.1).message)
 
     def tearDown(self):
         if self.away:
@@ -48,7 +47,7 @@ class AwayTest(unittest.TestCase):
 
     def in_background(self, timeout):
         replies = []
-        threading.Thread(target=lambda: replies.append(self.detect(PointCloud2(), timeout)), daemon=True).start()
+        threading.Thread(target=lambda: replies.append(self.detect(timeout=timeout)), daemon=True).start()
         time.sleep(1)  # it is under way
         return replies
 
@@ -65,7 +64,7 @@ class AwayTest(unittest.TestCase):
 
     def expect_a_reason(self):
         start = time.monotonic()
-        reply = self.detect(PointCloud2(), 2)
+        reply = self.detect(timeout=2)
         self.assertLess(time.monotonic() - start, SOON)
         self.assertFalse(reply.success)
         self.assertIn("within 2 s", reply.message)

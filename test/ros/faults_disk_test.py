@@ -43,7 +43,7 @@ class FaultyDiskTest(services_support.ServicesTest):
 
     def expect_the_old_codebook(self):
         self.assertEqual(self.succeed("info").codebook, self.loaded)
-        found = self.succeed("detect", support.cloud_message(synthetic.scene()), 0).detections
+        found = self.succeed("detect", cloud=support.cloud_message(synthetic.scene())).detections
         self.assertEqual(sorted(d.object for d in found.detections), ["round", "thing"])
 
     def test_codebooks_on_a_full_disk(self):

@@ -37,7 +37,7 @@ class KilledNodeTest(services_support.ServicesTest):
             self.assertIn(left, wholes, "run %d" % run)
             self.node.start()
             self.assertTrue(self.succeed("info").codebook.startswith(wholes[left] + " ("))
-            found = self.succeed("detect", support.cloud_message(synthetic.scene()), 0).detections
+            found = self.succeed("detect", cloud=support.cloud_message(synthetic.scene())).detections
             self.assertEqual(sorted(d.object for d in found.detections), ["round", "thing"])
 
     def train_seconds(self, name):

@@ -67,7 +67,7 @@ class FaultyServicesTest(services_support.ServicesTest):
         self.loaded = self.succeed("load_codebook", "replaced.sks").codebook
 
     def expect_objects(self, objects, answer=None):
-        found = answer or self.succeed("detect", support.cloud_message(synthetic.scene()), 0).detections
+        found = answer or self.succeed("detect", cloud=support.cloud_message(synthetic.scene())).detections
         self.assertEqual(sorted(d.object for d in found.detections), objects)
 
     def calls(self):

@@ -46,8 +46,8 @@ def service(name, service_type, patience=support.PATIENCE):
     proxy = rospy.ServiceProxy("/detector/" + name, service_type, persistent=True)
     proxy.wait_for_service(support.PATIENCE)
 
-    def call(*arguments):
+    def call(*arguments, **fields):
         replies = []
-        threading.Thread(target=lambda: replies.append(proxy(*arguments)), daemon=True).start()
+        threading.Thread(target=lambda: replies.append(proxy(*arguments, **fields)), daemon=True).start()
         return support.wait_for(lambda: replies, "the reply of " + name, patience)[0]
     return call

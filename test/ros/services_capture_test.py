@@ -82,7 +82,7 @@ class CaptureServicesTest(services_support.ServicesTest):
         self.assertRegex(trained.codebook, "^captured ")
         self.wait_for_status(lambda s: s.captured == [] and s.objects == ["thing", "round"], "the trained objects")
         scene = tabletop(standing(synthetic.THING, -0.12, turn=10), standing(synthetic.ROUND, 0.12, turn=5))
-        found = self.succeed("detect", support.cloud_message(scene), 0).detections
+        found = self.succeed("detect", cloud=support.cloud_message(scene)).detections
         self.assertEqual({d.object for d in found.detections}, {"round", "thing"})
         x = {d.object: d.box_center.position.x for d in reversed(found.detections)}  # the best of each
         self.assertAlmostEqual(x["thing"], -0.12, delta=0.04)

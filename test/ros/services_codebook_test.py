@@ -10,7 +10,6 @@ import numpy as np
 import rospy
 import rostest
 import yaml
-from sensor_msgs.msg import PointCloud2
 
 import services_support
 import support
@@ -119,7 +118,7 @@ class CodebookServicesTest(services_support.ServicesTest):
         self.assertEqual(after.words, before.words[1:])
         self.assertNotEqual(after.codebook, before.codebook)
         self.assertEqual(after.codebook_file, "")
-        found = self.succeed("detect", support.cloud_message(synthetic.scene()), 0).detections
+        found = self.succeed("detect", cloud=support.cloud_message(synthetic.scene())).detections
         self.assertEqual({d.object for d in found.detections}, {"round"})
         self.assertEqual(found.codebook, after.codebook)
 
@@ -134,7 +133,7 @@ class CodebookServicesTest(services_support.ServicesTest):
         self.succeed("enable", False)
         self.wait_for_status(lambda s: s.state == Status.DISABLED, "the disabled state")
         cloud = support.cloud_message(synthetic.scene(), stamp=rospy.Time(12, 34))
-        found = self.succeed("detect", cloud, 0).detections
+        found = self.succeed("detect", cloud=cloud).detections
         self.assertEqual(found.header.stamp, cloud.header.stamp)
         self.assertEqual(found.header.frame_id, "camera")
         self.assertEqual(sorted(d.object for d in found.detections), ["round", "thing"])
@@ -149,7 +148,7 @@ class CodebookServicesTest(services_support.ServicesTest):
         self.succeed("enable", False)
         support.wait_for(lambda: self.source.publisher.get_num_connections() == 0, "the end of the subscription")
         replies = []
-        call = threading.Thread(target=lambda: replies.append(self.node.call("detect", PointCloud2(), 30)))
+        call = threading.Thread(target=lambda: replies.append(self.node.call("detect", timeout=30)))
         call.start()
         stamp = self.source.send(support.cloud_message(synthetic.scene()))
         call.join()

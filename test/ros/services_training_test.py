@@ -56,7 +56,7 @@ class TrainingServicesTest(services_support.ServicesTest):
 
     def expect_old_codebook(self):
         self.assertEqual(self.succeed("info").codebook, self.old)
-        found = self.succeed("detect", support.cloud_message(synthetic.scene()), 0).detections
+        found = self.succeed("detect", cloud=support.cloud_message(synthetic.scene())).detections
         self.assertEqual({d.object for d in found.detections}, {"round", "thing"})
         self.wait_for_status(lambda s: s.state != Status.TRAINING and not s.progress, "the end of the training")
 
@@ -69,7 +69,7 @@ class TrainingServicesTest(services_support.ServicesTest):
         info = self.succeed("info")
         self.assertEqual(info.codebook, trained.codebook)
         self.assertEqual(info.codebook_file, os.path.join(self.node.codebooks, "new/toys.sks"))
-        found = self.succeed("detect", support.cloud_message(synthetic.scene()), 0).detections
+        found = self.succeed("detect", cloud=support.cloud_message(synthetic.scene())).detections
         self.assertEqual({d.object for d in found.detections}, {"round", "thing"})
         self.assertEqual(found.codebook, trained.codebook)
         self.assertEqual(self.succeed("load_codebook", "new/toys.sks").codebook, trained.codebook)
