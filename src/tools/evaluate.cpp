@@ -2,6 +2,7 @@
 #include <memory>
 
 #include <sks_detector/cloud_io.hpp>
+#include <sks_detector/thresholds.hpp>
 
 #include "evaluation/evaluation.hpp"
 #include "evaluation/registered_truth.hpp"
@@ -51,6 +52,7 @@ void run(EvaluateOptions& options) {
   for (const std::string& object : untrainedObjects(data_set, codebook->objects)) {
     warn("object '" + object + "' of the ground truth was never trained: it counts as missed");
   }
+  for (const std::string& warning : thresholdWarnings(settings.detection, codebook->objects)) warn(warning);
   const DetectFunction detect = options.method.detectFunction(codebook, settings);
   Evaluation evaluation =
       evaluate(registeredTruth(data_set, *codebook), detect, options.method.name(), settings, bar.callback());
