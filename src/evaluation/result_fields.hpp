@@ -10,8 +10,8 @@ namespace sks {
 
 template <typename Archive>
 void fields(Archive& archive, Detection& d) {
-  archive(d.object, d.score, d.view, d.T_scene_model, d.T_scene_box, d.box_size, d.density, d.evidence, d.votes,
-          d.inliers);
+  archive(d.object, d.score, d.view, d.T_scene_model, d.T_scene_box, d.box_size, d.covariance, d.density, d.evidence,
+          d.votes, d.inliers);
 }
 
 template <typename Archive>

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 
@@ -13,6 +15,7 @@ namespace {
 
 constexpr double independent_area = 0.007 * 0.007;  // [m^2] depth errors nearer to each other are alike
 constexpr double common_error = 0.0001;             // [m] of model and sensor that patches share: does not average out
+constexpr double sure_above = 2;                    // standard errors of what the pairs tell, which are not counted
 constexpr double any_turn = 1.8;                    // [rad] deviation of a turn of which nothing is known
 
 Vector6d rowOf(const Eigen::Vector3d& lever, const Eigen::Vector3d& normal, double radius) {
@@ -55,6 +58,7 @@ PoseInformation::PoseInformation(const SurfaceSample& surface, double area, cons
   // Products of the normals of model and scene: noise of the one is not that of the other, and averages out. With
   // those of the scene alone it would look as if all motions were known.
   Matrix6d products = Matrix6d::Zero();
+  std::vector<std::pair<Vector6d, Vector6d>> rows;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   for (std::size_t i = 0; i < surface.size; ++i) {
     const Eigen::Vector3f point = T * surface.point(i), normal = T.linear() * surface.normal(i);
@@ -63,18 +67,27 @@ PoseInformation::PoseInformation(const SurfaceSample& surface, double area, cons
     if (!seen.hasPoint() || !(normal.dot(seen.cell->normal()) > normal_agreement)) continue;
     if ((seen.cell->position() - point).squaredNorm() > float(reach * reach)) continue;
     const Eigen::Vector3d lever = point.cast<double>() - pivot;
-    products += rowOf(lever, normal.cast<double>(), radius) *
-                rowOf(lever, seen.cell->normal().cast<double>(), radius).transpose();
+    rows.emplace_back(rowOf(lever, normal.cast<double>(), radius),
+                      rowOf(lever, seen.cell->normal().cast<double>(), radius));
+    products += rows.back().first * rows.back().second.transpose();
   }
-  products *= 0.5 * std::min(1.0, area / independent_area);
+  const double share = std::min(1.0, area / independent_area);  // of a patch, for each pair
+  products *= 0.5 * share;
   matrix = products + products.transpose();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(matrix);
+  for (const auto& [of_model, of_scene] : rows) {
+    const Vector6d a = solver.eigenvectors().transpose() * of_model, b = solver.eigenvectors().transpose() * of_scene;
+    doubt += share * a.cwiseProduct(b).cwiseAbs2();
+  }
+  doubt = doubt.cwiseSqrt().eval();
 }
 
 Matrix6d poseCovariance(const PoseInformation& information, double noise, const Eigen::Isometry3d& T_scene_model,
                         const Eigen::Vector3d& center, double size) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(information.matrix);
-  const Matrix6d known = solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).asDiagonal() *
-                         solver.eigenvectors().transpose() / (noise * noise);
+  const Vector6d sure = (solver.eigenvalues() - sure_above * information.doubt).cwiseMax(0);
+  const Matrix6d known =
+      solver.eigenvectors() * sure.asDiagonal() * solver.eigenvectors().transpose() / (noise * noise);
   Vector6d possible;
   possible << Eigen::Vector3d::Constant(any_turn * information.radius), Eigen::Vector3d::Constant(size);
   const Matrix6d covariance = (known + Matrix6d(possible.cwiseAbs2().cwiseInverse().asDiagonal())).inverse() +

@@ -27,6 +27,9 @@ struct PoseInformation {
   /// Of a motion (rotation vector times the radius, shift): inverse of its covariance where depth has a standard
   /// deviation of 1. Symmetric; where surfaces tell nothing of a motion some of its eigenvalues are about 0.
   Matrix6d matrix;
+  /// Along each eigenvector of the matrix, in ascending order of eigenvalues: standard error of the eigenvalue, from
+  /// how much the patches differ. What is not well above it may be noise of the normals.
+  Vector6d doubt = Vector6d::Zero();
 };
 
 /// Covariance of a pose: shift of the centre of the box [m], and rotation vector, along the axes of the model.
