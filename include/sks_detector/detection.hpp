@@ -18,8 +18,8 @@ struct Detection {
   Eigen::Isometry3d T_scene_box = Eigen::Isometry3d::Identity();    ///< box centre, and axes
   Eigen::Vector3d box_size = Eigen::Vector3d::Zero();               ///< full extents along the box's axes [m]
   /// Covariance of the pose: shift of the model's origin [m], and rotation vector, along the axes of the scene; zeros:
-  /// not known. What the cloud does not tell, like the turn of a bowl, has the deviation of what is possible; that
-  /// another pose altogether may be the right one is in the score, not here.
+  /// not known. What the cloud does not tell, like the turn of a bowl, has the deviation of what is possible. It
+  /// says nothing of another pose that may be the right one, such as a carton's by half a turn.
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   double density = 0;         ///< kernel sum of the inliers' votes at their maximum
   double evidence = 0;        ///< for the pose, from votes and surface or votes alone (docs/method.md)
