@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-#include <vector>
 
 #include <Eigen/Eigenvalues>
 
@@ -58,7 +56,6 @@ PoseInformation::PoseInformation(const SurfaceSample& surface, double area, cons
   // Products of the normals of model and scene: noise of the one is not that of the other, and averages out. With
   // those of the scene alone it would look as if all motions were known.
   Matrix6d products = Matrix6d::Zero();
-  std::vector<std::pair<Vector6d, Vector6d>> rows;
   const Eigen::Isometry3f T = T_scene_model.cast<float>();
   for (std::size_t i = 0; i < surface.size; ++i) {
     const Eigen::Vector3f point = T * surface.point(i), normal = T.linear() * surface.normal(i);
@@ -67,25 +64,29 @@ PoseInformation::PoseInformation(const SurfaceSample& surface, double area, cons
     if (!seen.hasPoint() || !(normal.dot(seen.cell->normal()) > normal_agreement)) continue;
     if ((seen.cell->position() - point).squaredNorm() > float(reach * reach)) continue;
     const Eigen::Vector3d lever = point.cast<double>() - pivot;
-    rows.emplace_back(rowOf(lever, normal.cast<double>(), radius),
-                      rowOf(lever, seen.cell->normal().cast<double>(), radius));
-    products += rows.back().first * rows.back().second.transpose();
+    pairs_.push_back(
+        {rowOf(lever, normal.cast<double>(), radius), rowOf(lever, seen.cell->normal().cast<double>(), radius)});
+    products += pairs_.back().of_model * pairs_.back().of_scene.transpose();
   }
-  const double share = std::min(1.0, area / independent_area);  // of a patch, for each pair
-  products *= 0.5 * share;
+  patches_ = std::min(1.0, area / independent_area);
+  products *= 0.5 * patches_;
   matrix = products + products.transpose();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(matrix);
-  for (const auto& [of_model, of_scene] : rows) {
-    const Vector6d a = solver.eigenvectors().transpose() * of_model, b = solver.eigenvectors().transpose() * of_scene;
-    doubt += share * a.cwiseProduct(b).cwiseAbs2();
+}
+
+Vector6d PoseInformation::standardErrors(const Matrix6d& axes) const {
+  Vector6d squares = Vector6d::Zero();
+  for (const Pair& pair : pairs_) {
+    const Vector6d a = axes.transpose() * pair.of_model, b = axes.transpose() * pair.of_scene;
+    squares += patches_ * a.cwiseProduct(b).cwiseAbs2();
   }
-  doubt = doubt.cwiseSqrt().eval();
+  return squares.cwiseSqrt();
 }
 
 Matrix6d poseCovariance(const PoseInformation& information, double noise, const Eigen::Isometry3d& T_scene_model,
                         const Eigen::Vector3d& center, double size) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(information.matrix);
-  const Vector6d sure = (solver.eigenvalues() - sure_above * information.doubt).cwiseMax(0);
+  const Vector6d doubt = information.standardErrors(solver.eigenvectors());
+  const Vector6d sure = (solver.eigenvalues() - sure_above * doubt).cwiseMax(0);
   const Matrix6d known =
       solver.eigenvectors() * sure.asDiagonal() * solver.eigenvectors().transpose() / (noise * noise);
   Vector6d possible;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
 #include <Eigen/Geometry>
 
 #include "core/verification/pose_evidence.hpp"
@@ -27,9 +29,18 @@ struct PoseInformation {
   /// Of a motion (rotation vector times the radius, shift): inverse of its covariance where depth has a standard
   /// deviation of 1. Symmetric; where surfaces tell nothing of a motion some of its eigenvalues are about 0.
   Matrix6d matrix;
-  /// Along each eigenvector of the matrix, in ascending order of eigenvalues: standard error of the eigenvalue, from
-  /// how much the patches differ. What is not well above it may be noise of the normals.
-  Vector6d doubt = Vector6d::Zero();
+
+  /// Along each of these axes: standard error of what the matrix tells, from how much the patches differ. What is not
+  /// well above it may be noise of the normals.
+  Vector6d standardErrors(const Matrix6d& axes) const;
+
+private:
+  /// What a pair tells of a motion is the product of both: rows of the normals of model and scene.
+  struct Pair {
+    Vector6d of_model, of_scene;
+  };
+  std::vector<Pair> pairs_;
+  double patches_ = 1;  // for each pair
 };
 
 /// Covariance of a pose: shift of the centre of the box [m], and rotation vector, along the axes of the model.
