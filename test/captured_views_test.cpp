@@ -221,6 +221,19 @@ TEST_F(CapturedViewsTest, KeepThePlane) {
   EXPECT_FALSE(all.training[1].plane);
 }
 
+TEST_F(CapturedViewsTest, KeepThePoseOfTheCamera) {
+  const Eigen::Isometry3d pose =
+      Eigen::Translation3d(0.1, -2.5, 1.25) * Eigen::AngleAxisd(2, Eigen::Vector3d(1, 2, 3).normalized());
+  views_.add("mug", view(1), std::nullopt, pose);
+  views_.add("mug", view(2));
+  const DataSet all = views_.read();
+  ASSERT_THAT(all.training, SizeIs(2));
+  ASSERT_TRUE(all.training[0].T_fixed_cloud);
+  EXPECT_TRUE(all.training[0].T_fixed_cloud->isApprox(pose, 1e-9));
+  EXPECT_FALSE(all.training[1].T_fixed_cloud);
+  EXPECT_TRUE(trainingSamples(all)[0].T_fixed_source->isApprox(pose, 1e-9));
+}
+
 /// Whoever deletes the line of a view deletes that view alone; also in files that were written in one line.
 TEST_F(CapturedViewsTest, AreListedOneALine) {
   views_.add("tea pot", view(1), Eigen::Hyperplane<double, 3>(Eigen::Vector3d(0, -0.6, -0.8), 0.75));

@@ -326,6 +326,22 @@ TEST_F(DataSetFile, HoldsThePlanesOfViews) {
   EXPECT_THAT(refusal(with("view", "[0, 0, 1]")), HasSubstr("plane"));
 }
 
+TEST_F(DataSetFile, HoldsThePosesOfViews) {
+  const auto with = [&](const std::string& kind, const std::string& pose) {
+    return head + "training:\n  - {object: duck, cloud: ../views/duck0.pcd, kind: " + kind + ", cloud_pose: " + pose +
+           "}\n";
+  };
+  const auto pose =
+      load(with("view", "[0, -1, 0, 500, 1, 0, 0, 0, 0, 0, 1, -1000, 0, 0, 0, 1]")).training.at(0).T_fixed_cloud;
+  ASSERT_TRUE(pose);
+  EXPECT_TRUE(pose->translation().isApprox(Eigen::Vector3d(0.5, 0, -1), 1e-9));
+  EXPECT_TRUE((pose->linear() * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitY(), 1e-9));
+  EXPECT_THAT(refusal(with("model", "[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]")),
+              HasSubstr("only of use for views"));
+  EXPECT_THAT(refusal(with("view", "[2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]")), HasSubstr("rigid"));
+  EXPECT_THAT(refusal(with("view", "[1, 0, 0, 2.0e+7, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]")), HasSubstr("10 km"));
+}
+
 TEST_F(DataSetFile, NamesObjectsThatWereNeverTrained) {
   const DataSet data_set =
       load(head +

@@ -48,7 +48,9 @@ struct RegisteredObject {
 };
 
 struct ViewRegistration {
-  std::vector<TrainingSample> samples;    ///< for train(): tied views share frame and box of their object
+  /// For train(): tied views share frame and box of their object. After the last view of an object come views of its
+  /// model from directions between them: it is found by them, too, where no picture was taken from.
+  std::vector<TrainingSample> samples;
   std::vector<RegisteredObject> objects;  ///< with at least two captured views, in order of their first sample
 };
 

@@ -30,6 +30,9 @@ struct TrainingSample {
   std::optional<Eigen::Isometry3d> T_model_source = std::nullopt;
   /// Of a captured view: the plane that the object stood on, its normal towards the object; frame of the cloud [m].
   std::optional<Eigen::Hyperplane<double, 3>> plane = std::nullopt;
+  /// Of a captured view: pose of the cloud's frame in a frame in which the object stood still, where the camera was
+  /// moved around it and it is known how [m]. Errors of some degrees do no harm.
+  std::optional<Eigen::Isometry3d> T_fixed_source = std::nullopt;
 };
 
 /// Section 3.1: normals, grid keypoints without selection, descriptors, one codeword each. Deterministic, for any

@@ -61,7 +61,8 @@ CapturedViews::CapturedViews(std::string folder)
       lock_file_((fs::path(folder_) / ".lock").string()) {}
 
 CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& view,
-                                        const std::optional<Eigen::Hyperplane<double, 3>>& plane) {
+                                        const std::optional<Eigen::Hyperplane<double, 3>>& plane,
+                                        const std::optional<Eigen::Isometry3d>& T_fixed_view) {
   checkFileName(object, "the object's name");
   if (object.rfind("builtin:", 0) == 0) {
     throw Error(ErrorCode::bad_usage, "the object's name '" + object + "' is refused: it starts with 'builtin:'");
@@ -89,6 +90,9 @@ CapturedViews::Added CapturedViews::add(const std::string& object, const Cloud& 
   entry["kind"] = "view";
   if (plane) {
     for (int i = 0; i < 4; ++i) entry["plane"].push_back(plane->coeffs()[i]);
+  }
+  if (T_fixed_view) {
+    for (int i = 0; i < 16; ++i) entry["cloud_pose"].push_back((*T_fixed_view)(i / 4, i % 4));
   }
   root["training"].push_back(entry);
   try {

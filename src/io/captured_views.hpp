@@ -31,8 +31,10 @@ public:
   /// file has been changed to millimetres; Error(bad_file) if the files cannot be read or written, or others have been
   /// changing them for long
   /// @param plane that the object stands on, its normal towards the object; in the frame of the view
+  /// @param T_fixed_view see TrainingEntry::T_fixed_cloud
   Added add(const std::string& object, const Cloud& view,
-            const std::optional<Eigen::Hyperplane<double, 3>>& plane = std::nullopt);
+            const std::optional<Eigen::Hyperplane<double, 3>>& plane = std::nullopt,
+            const std::optional<Eigen::Isometry3d>& T_fixed_view = std::nullopt);
 
   struct Removed {
     std::string file;       ///< of the view that was taken out

@@ -48,6 +48,7 @@ private:
   Eigen::Vector3d positionOf(const YamlMap& map, const std::string& key, const Eigen::Vector3d& position) const;
   void readTraining(const YamlMap& map);
   static Eigen::Hyperplane<double, 3> readPlane(const YamlMap& map, double scale);
+  static Eigen::Isometry3d readCloudPose(const YamlMap& map, double scale);
   void addSymmetries();
   void readScene(const YamlMap& map);
   GroundTruth readGroundTruth(const YamlMap& map);
@@ -78,8 +79,8 @@ DataSet DataSetReader::read(const std::string& text) {
   readUnits(map);
   for (const YAML::Node& item : map.list("training")) {
     readTraining(mapOf(item, "a training cloud",
-                       {"object", "cloud", "kind", "plane", "symmetry", "units", "diameter", "symmetries_discrete",
-                        "symmetries_continuous"}));
+                       {"object", "cloud", "kind", "plane", "cloud_pose", "symmetry", "units", "diameter",
+                        "symmetries_discrete", "symmetries_continuous"}));
   }
   for (const YAML::Node& item : map.list("scenes")) {
     readScene(mapOf(item, "a scene", {"name", "cloud", "objects", "ignore"}));
@@ -163,6 +164,7 @@ void DataSetReader::readTraining(const YamlMap& map) {
     if (*entry.diameter <= 0) map.fail("diameter", "must be greater than 0");
   }
   if (map.has("plane")) entry.plane = readPlane(map, scale);
+  if (map.has("cloud_pose")) entry.T_fixed_cloud = readCloudPose(map, scale);
   if (left_out) {
     warn(map.at("cloud"), "cloud '" + entry.path + "' of object '" + entry.object + "' does not exist: it is left out");
   }
@@ -181,6 +183,15 @@ Eigen::Hyperplane<double, 3> DataSetReader::readPlane(const YamlMap& map, double
   if (!(std::abs(plane.offset()) <= farthest_position))
     map.fail("plane", "lies more than 10 km away: is `units` right?");
   return plane;
+}
+
+Eigen::Isometry3d DataSetReader::readCloudPose(const YamlMap& map, double scale) {
+  if (map.text("kind") != "view") map.fail("cloud_pose", "is only of use for views");
+  Eigen::Isometry3d pose = readRigidMotion(map, "cloud_pose");
+  pose.translation() *= scale;
+  if (!(pose.translation().norm() <= farthest_position))
+    map.fail("cloud_pose", "lies more than 10 km away: is `units` right?");
+  return pose;
 }
 
 /// Gives the ground truth the symmetries that the training entries declare.
@@ -285,6 +296,7 @@ std::vector<TrainingSample> trainingSamples(const DataSet& data_set, const MeshS
     sample.source = entry.source;
     sample.kind = entry.kind;
     sample.plane = entry.plane;
+    sample.T_fixed_source = entry.T_fixed_cloud;
     sample.load = [path = entry.path, scale] { return readCloud(path, scale); };
     samples.push_back(std::move(sample));
   }

@@ -30,6 +30,8 @@ struct TrainingEntry {
 
   /// That the object stood on, its normal towards the object; of a captured view, in its frame [m].
   std::optional<Eigen::Hyperplane<double, 3>> plane = std::nullopt;
+  /// Of a captured view: pose of its frame in one in which the object stood still, where the camera was moved [m].
+  std::optional<Eigen::Isometry3d> T_fixed_cloud = std::nullopt;
 };
 
 /// One true instance of an object in a scene.

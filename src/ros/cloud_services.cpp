@@ -71,10 +71,19 @@ void CloudServices::captureView(const CaptureView::Request& request, CaptureView
   sks::confinedPath(context_.captured.file(), context_.dataset_directory);
   const std::vector<std::string> warnings = context_.captured.read().warnings;
   for (const std::string& warning : warnings) ROS_WARN_STREAM(warning);
-  const sks::Cloud cloud = context_.node.read(*nextCloud(request.timeout));
+  const sensor_msgs::PointCloud2ConstPtr message = nextCloud(request.timeout);
+  const sks::Cloud cloud = context_.node.read(*message);
   const StandingObject object = findObject(cloud);
   const sks::ViewQuality quality = sks::assessView(cloud, object.points, context_.slot.trainingSettings());
-  const auto added = context_.captured.add(request.object, sks::cutOut(cloud, object.points), object.plane);
+  std::optional<Eigen::Isometry3d> T_fixed_cloud;
+  std::vector<std::string> remarks = warnings;
+  try {
+    T_fixed_cloud = context_.node.fixed_pose(message->header);
+  } catch (const Error& error) {
+    remarks.push_back(std::string("how the camera was moved is not known: ") + error.what());
+  }
+  const auto added =
+      context_.captured.add(request.object, sks::cutOut(cloud, object.points), object.plane, T_fixed_cloud);
   context_.updateStatus();
   response.view = added.file;
   response.views = std::uint32_t(added.views);
@@ -84,7 +93,7 @@ void CloudServices::captureView(const CaptureView::Request& request, CaptureView
   response.extent.z = quality.extent.z();
   response.resolution = quality.spacing;
   response.message = "view " + std::to_string(added.views) + " of '" + request.object + "': " + describe(quality) +
-                     describeModel(request.object, response) + asRemarks(warnings);
+                     describeModel(request.object, response) + asRemarks(remarks);
 }
 
 void CloudServices::undoCapture(const UndoCapture::Request& request, UndoCapture::Response& response) {

@@ -184,7 +184,8 @@ NodeAccess DetectorNode::nodeAccess() {
             return detect(*cloud, query);
           },
           [this](bool enabled) { setEnabled(enabled); },
-          [this](const sensor_msgs::PointCloud2& cloud) { return frame_detector_.read(cloud, nodeSettings()); }};
+          [this](const sensor_msgs::PointCloud2& cloud) { return frame_detector_.read(cloud, nodeSettings()); },
+          [this](const std_msgs::Header& cloud) { return frame_detector_.fixedPose(cloud, nodeSettings()); }};
 }
 
 void DetectorNode::setEnabled(bool enabled) {
@@ -241,8 +242,8 @@ void DetectorNode::watchSilence() {
 
 void DetectorNode::listenToTransforms() {
   const NodeSettings settings = nodeSettings();
-  const bool follows = settings.tracking && !settings.fixed_frame.empty();
-  if (follows || !settings.target_frame.empty() || !settings.sensor_frame.empty()) transforms_.listen();
+  const bool any = !settings.fixed_frame.empty() || !settings.target_frame.empty() || !settings.sensor_frame.empty();
+  if (any) transforms_.listen();
 }
 
 void DetectorNode::advertiseTransforms() {

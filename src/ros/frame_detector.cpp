@@ -128,13 +128,18 @@ FrameResult FrameDetector::detect(const sensor_msgs::PointCloud2& message, const
   return result;
 }
 
+std::optional<Eigen::Isometry3d> FrameDetector::fixedPose(const std_msgs::Header& cloud,
+                                                          const NodeSettings& settings) const {
+  if (settings.fixed_frame.empty()) return std::nullopt;
+  return transforms_.lookup(withoutSlash(settings.fixed_frame), withoutSlash(cloud.frame_id), cloud.stamp,
+                            settings.tf_timeout);
+}
+
 sks::CloudView FrameDetector::viewOf(const std_msgs::Header& cloud, const NodeSettings& settings,
                                      std::string& warning) const {
   sks::CloudView view{cloud.stamp.toSec(), {}};
-  if (settings.fixed_frame.empty()) return view;
   try {
-    view.T_fixed_cloud = transforms_.lookup(withoutSlash(settings.fixed_frame), withoutSlash(cloud.frame_id),
-                                            cloud.stamp, settings.tf_timeout);
+    view.T_fixed_cloud = fixedPose(cloud, settings);
   } catch (const sks::Error& error) {
     warning = std::string("objects are followed as if the camera stood still: ") + error.what();
   }

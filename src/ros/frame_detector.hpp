@@ -61,6 +61,10 @@ public:
   /// @throws sks::Error for an unusable cloud, or where a transform is missing
   sks::Cloud read(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings) const;
 
+  /// T_fixed_cloud: pose of a cloud's frame in ~fixed_frame; none without ~fixed_frame.
+  /// @throws sks::Error where the transform is missing
+  std::optional<Eigen::Isometry3d> fixedPose(const std_msgs::Header& cloud, const NodeSettings& settings) const;
+
   /// @throws sks::Error without a codebook, for an unusable cloud, where a transform is missing, or for objects that
   /// the codebook does not have
   FrameResult detect(const sensor_msgs::PointCloud2& cloud, const NodeSettings& settings, const FrameExtras& extras,

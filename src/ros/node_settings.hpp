@@ -66,9 +66,10 @@ struct NodeSettings {
       "follow objects from cloud to cloud, at the rate of the camera, and search for new ones beside it (tracker.*); "
       "else every cloud is searched anew");
     v(s.fixed_frame, "fixed_frame",
-      "with ~tracking: frame in which things stand still while the camera moves, e.g. odom; empty: objects are "
-      "followed "
-      "in the frame of the cloud");
+      "frame in which things stand still while the camera moves, e.g. odom: for ~tracking, and for ~capture_view where "
+      "the camera is moved around the object; empty: objects are followed in the frame of the cloud, and captured "
+      "views "
+      "tell by themselves how they belong together");
   }
 };
 

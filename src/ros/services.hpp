@@ -3,10 +3,13 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include <ros/node_handle.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <sks_detector/DetectionArray.h>
+#include <std_msgs/Header.h>
+#include <Eigen/Geometry>
 
 #include <sks_detector/cloud.hpp>
 
@@ -29,6 +32,9 @@ struct NodeAccess {
   /// The cloud as the detector takes it: in its own frame, with the position of the camera (~sensor_frame).
   /// @throws sks::Error for an unusable cloud, or where a transform is missing
   std::function<sks::Cloud(const sensor_msgs::PointCloud2& cloud)> read;
+  /// Pose of a cloud's frame in ~fixed_frame; none without ~fixed_frame.
+  /// @throws sks::Error where the transform is missing
+  std::function<std::optional<Eigen::Isometry3d>(const std_msgs::Header& cloud)> fixed_pose;
 };
 
 /// All services of the node (docs/services.md), on a callback queue and threads of their own: a long training blocks no

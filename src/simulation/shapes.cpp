@@ -6,6 +6,8 @@
 #include <map>
 #include <utility>
 
+#include "core/surface/even_directions.hpp"
+
 namespace sks {
 namespace {
 
@@ -178,12 +180,7 @@ std::vector<Eigen::Vector3d> geodesicDirections(int count) {
     for (const Eigen::Vector3f& v : sphere.vertices) directions.push_back(v.cast<double>().normalized());
     return directions;
   }
-  const double golden = EIGEN_PI * (3 - std::sqrt(5.0));
-  for (int i = 0; i < count; ++i) {
-    const double z = 1 - (2 * i + 1.0) / count, radius = std::sqrt(1 - z * z);
-    directions.emplace_back(radius * std::cos(golden * i), radius * std::sin(golden * i), z);
-  }
-  return directions;
+  return evenDirections(count);
 }
 
 }  // namespace sks

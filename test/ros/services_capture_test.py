@@ -112,7 +112,7 @@ class CaptureServicesTest(services_support.ServicesTest):
         self.assertIn("6 views are left", undone.message)
         self.assertFalse(os.path.exists(self.file("thing/006.pcd")))
         trained = self.succeed("train")
-        self.assertEqual(trained.views, 6)
+        self.assertGreater(trained.views, 6)  # and those of the model
         self.refuse("undo_capture", "no view of 'other' was captured", object="other")
 
     def test_says_which_captured_views_have_no_plane(self):

@@ -2,86 +2,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """docs/training.md, "With a camera", before a virtual camera: captures an object from all around, trains it and finds
 it from other directions in one frame; and what goes wrong on the way."""
-import json
 import os
 import shutil
 import signal
 import subprocess
 import tempfile
-import threading
 import unittest
 
 import dynamic_reconfigure.client
 import numpy as np
-import rosbag
 import rospy
 import rostest
 import tf2_msgs.msg
 
 import services_support
 import support
-
-TABLE = {"elevation": 35, "distance": 0.7}
-AROUND = [dict(TABLE, degrees=30 * i) for i in range(12)]
-ELSEWHERE = [{"degrees": 10 + 36 * i, "elevation": 28 + 3 * i, "distance": 0.6 + 0.03 * (i * 3 % 10)}
-             for i in range(10)]
-
-
-def angle_of(R):
-    """[degrees]"""
-    return np.degrees(np.arccos(np.clip((np.trace(R[:3, :3]) - 1) / 2, -1, 1)))
-
-
-class Picture:
-    """A frame of a recording, with the camera's pose on the table and the frame that the object's model has where this
-    is its first view, both as T_table."""
-
-    def __init__(self, cloud, transform, truth):
-        self.cloud = cloud
-        self.T_table_camera = support.matrix_of_transform(transform)
-        self.T_table_model = self.T_table_camera @ support.matrix_of(truth.pose.pose)
-
-
-def recorded(folder, pictures):
-    """What the virtual camera sees."""
-    lists, bag = os.path.join(folder, "pictures.json"), os.path.join(folder, "pictures.bag")
-    with open(lists, "w") as file:
-        json.dump(pictures, file)
-    subprocess.check_call(["rosrun", "sks_detector", "record_table", lists, bag])
-    topics = {"/camera/depth_registered/points": [], "/tf": [], "/ground_truth": []}
-    with rosbag.Bag(bag) as recording:
-        for topic, message, _ in recording.read_messages(topics):
-            topics[topic].append(message)
-    os.remove(bag)
-    clouds, transforms, truths = topics.values()
-    return [Picture(cloud, tf.transforms[0].transform, truth.detections[0])
-            for cloud, tf, truth in zip(clouds, transforms, truths)]
-
-
-class Camera:
-    """Publishes the picture that it is shown, over and over."""
-
-    def __init__(self, topic):
-        self._source = support.CloudSource(topic, queue_size=1)
-        self._lock = threading.Lock()
-        self._cloud = None
-        self._timer = rospy.Timer(rospy.Duration(0.2), self._publish)
-
-    def show(self, picture):
-        """The time from which on clouds show it."""
-        with self._lock:
-            self._cloud = picture.cloud
-            return rospy.Time.now()
-
-    def _publish(self, _):
-        with self._lock:
-            if self._cloud and self._source.publisher.get_num_connections() > 0:
-                self._cloud.header.stamp = rospy.Time.now()
-                self._source.publisher.publish(self._cloud)
-
-    def stop(self):
-        self._timer.shutdown()
-
+from table_pictures import AROUND, ELSEWHERE, Camera, angle_of, recorded
 
 class TutorialTest(unittest.TestCase):
     @classmethod
@@ -150,7 +86,8 @@ class TutorialTest(unittest.TestCase):
         self.assertGreaterEqual(last.coverage, 0.8, last.message)
 
         trained = self.call("train", captured=True, output="mine.sks")
-        self.assertEqual((trained.objects, trained.views), (1, 12))
+        self.assertEqual(trained.objects, 1)
+        self.assertGreater(trained.views, 12)  # and those of the model
         self.assertNotIn("toy/000.pcd", trained.message)
         self.assertTrue(os.path.exists(os.path.join(self.folder, "mine.sks")))
 

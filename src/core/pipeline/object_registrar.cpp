@@ -52,6 +52,7 @@ struct ObjectRegistrar::Views {
     const Descriptors rows = described(*descriptors, surface, found, settings);
     CapturedView view(std::move(surface), found, rows, settings, sample.plane);
     view.source = sample.source;
+    view.T_fixed_view = sample.T_fixed_source;
     return view;
   }
 

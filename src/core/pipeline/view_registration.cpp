@@ -7,6 +7,7 @@
 
 #include "core/pipeline/shared_training.hpp"
 #include "core/registration/model_fusion.hpp"
+#include "core/registration/model_views.hpp"
 
 namespace sks {
 template <typename Archive>
@@ -106,6 +107,20 @@ void registerShared(WorkShare& share, std::vector<RegisteredObject>& objects,
   objects = fromBytes<std::vector<RegisteredObject>>(bytes);
 }
 
+/// After the last view of each object come those of its model, so that codebooks trained apart can be joined.
+std::vector<TrainingSample> withModelSamples(std::vector<TrainingSample> samples,
+                                             const std::vector<RegisteredObject>& objects, const Settings& settings) {
+  std::vector<TrainingSample> all;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    all.push_back(std::move(samples[i]));
+    for (const RegisteredObject& object : objects) {
+      if (object.views.back().sample != i) continue;
+      for (TrainingSample& sample : modelSamples(object, settings)) all.push_back(std::move(sample));
+    }
+  }
+  return all;
+}
+
 /// Puts the models of the objects into the codebook, which knows all of them.
 void addModels(RegisteredTraining& trained) {
   Codebook& codebook = trained.codebook;
@@ -146,6 +161,7 @@ ViewRegistration registerViews(const std::vector<TrainingSample>& samples, const
       sample.T_model_source = view.T_model_view;
     }
   }
+  registration.samples = withModelSamples(std::move(registration.samples), registration.objects, settings);
   return registration;
 }
 

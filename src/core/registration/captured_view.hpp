@@ -46,6 +46,7 @@ struct CapturedView {
   RangeImage image;
   ViewSilhouette silhouette;
   std::optional<Eigen::Hyperplane<double, 3>> plane;
+  std::optional<Eigen::Isometry3d> T_fixed_view;     ///< see TrainingSample::T_fixed_source
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< centroid of `points`
   double radius = 0;                                 ///< root mean square distance of `points` from it
 };

@@ -35,10 +35,7 @@ class Fusion {
 public:
   Fusion(const std::vector<CapturedView>& views, const std::vector<std::optional<Eigen::Isometry3d>>& poses,
          const Settings& settings)
-      : views_(views),
-        poses_(poses),
-        settings_(settings),
-        edge_(float(settings.training.surface_resolution / cubes_per_resolution)) {}
+      : views_(views), poses_(poses), settings_(settings), edge_(float(fusedSpacing(settings))) {}
 
   FusedModel fused() {
     collect();
@@ -141,6 +138,10 @@ private:
 };
 
 }  // namespace
+
+double fusedSpacing(const Settings& settings) {
+  return settings.training.surface_resolution / cubes_per_resolution;
+}
 
 FusedModel fuseViews(const std::vector<CapturedView>& views, const std::vector<std::optional<Eigen::Isometry3d>>& poses,
                      const Settings& settings) {

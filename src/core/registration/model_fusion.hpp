@@ -13,9 +13,12 @@
 
 namespace sks {
 
-/// The surface that views saw together: their points averaged in cubes of half of `training.surface_resolution`, those
-/// seen from the front counting most. What other cameras looked through, or would have seen beside the object, is
-/// dropped, and so are stray points; the box is that of the rest, down to z = 0 where views stood on a known plane.
+/// Edge of the cubes in which points of views are averaged [m]: half of `training.surface_resolution`.
+double fusedSpacing(const Settings& settings);
+
+/// The surface that views saw together: their points averaged in cubes of fusedSpacing(), those seen from the front
+/// counting most. What other cameras looked through, or would have seen beside the object, is dropped, and so are stray
+/// points; the box is that of the rest, down to z = 0 where views stood on a known plane.
 /// @param poses T_model_view of each view; views without one add nothing
 FusedModel fuseViews(const std::vector<CapturedView>& views, const std::vector<std::optional<Eigen::Isometry3d>>& poses,
                      const Settings& settings);

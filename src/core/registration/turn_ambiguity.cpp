@@ -68,11 +68,11 @@ public:
     const Eigen::Isometry3d whole = alignedMotion(views_, poses_, tied_, tied_, start, whole_rounds);
     Result result;
     std::map<Group, double> grown;  // and what they lose
-    const std::vector<double> losses = lossesBy(whole);
+    const std::vector<UprightPair::Gain> losses = lossesBy(whole);
     result.all_fit = std::abs(turnOf(whole)) > other_turn_limit;
     for (const std::size_t v : tied_) {
       double loss = 0;
-      for (const std::size_t t : tied_) loss += losses[v * views_.size() + t];
+      for (const std::size_t t : tied_) loss += losses[v * views_.size() + t].pictures;
       result.all_fit = result.all_fit && loss <= refuting;
       auto [group, group_loss] = grownFrom(v, losses);
       if (!group.empty() && leastLoss(group, turn) < clearly_refuted * refuting)
@@ -101,7 +101,7 @@ private:
   /// What a pair loses if the first view of it is moved.
   UprightPair::Gain lossOf(std::size_t v, std::size_t t, const Eigen::Isometry3d& motion) const {
     const UprightPair::Gain now = gains_[v * views_.size() + t], moved = gain(v, motion * *poses_[v], t, *poses_[t]);
-    return {now.all - moved.all, now.shape - moved.shape};
+    return {now.all - moved.all, now.shape - moved.shape, now.pictures - moved.pictures};
   }
 
   /// What a group loses at least at a turn, if each pair could choose its own place there.
@@ -118,11 +118,11 @@ private:
     return loss;
   }
 
-  std::vector<double> lossesBy(const Eigen::Isometry3d& motion) const {
-    std::vector<double> losses(views_.size() * views_.size(), 0);
+  std::vector<UprightPair::Gain> lossesBy(const Eigen::Isometry3d& motion) const {
+    std::vector<UprightPair::Gain> losses(views_.size() * views_.size());
     for (const std::size_t v : tied_) {
       for (const std::size_t t : tied_) {
-        if (t != v) losses[v * views_.size() + t] = lossOf(v, t, motion).all;
+        if (t != v) losses[v * views_.size() + t] = lossOf(v, t, motion);
       }
     }
     return losses;
@@ -130,7 +130,7 @@ private:
 
   /// The group that loses least of those that grow from a view by one that loses least after the other, up to half of
   /// all: the rest, turned back, loses the same. Empty if none is worth a look.
-  std::pair<Group, double> grownFrom(std::size_t first, const std::vector<double>& losses) const {
+  std::pair<Group, double> grownFrom(std::size_t first, const std::vector<UprightPair::Gain>& losses) const {
     std::vector<char> in(views_.size(), 0);
     Group members, best;
     double loss = 0, least_loss = worth_aligning;
@@ -138,7 +138,7 @@ private:
     const auto change = [&](std::size_t v) {
       double sum = 0;
       for (const std::size_t t : tied_) {
-        if (t != v) sum += in[t] ? -losses[t * views_.size() + v] : losses[v * views_.size() + t];
+        if (t != v) sum += in[t] ? -losses[t * views_.size() + v].all : losses[v * views_.size() + t].all;
       }
       return sum;
     };
@@ -169,11 +169,11 @@ private:
     if (std::abs(other.angle()) < least_turn) return;
     for (const std::size_t v : group) {
       for (const std::size_t t : rest) {
-        const auto [loss, shape_loss] = lossOf(v, t, other.motion);
-        other.shape_loss += shape_loss;
-        other.loss += loss;
-        other.largest = std::max(other.largest, loss);
-        other.squares += loss * loss;
+        const UprightPair::Gain lost = lossOf(v, t, other.motion);
+        other.shape_loss += lost.shape;
+        other.loss += lost.all;
+        other.largest = std::max(other.largest, lost.all);
+        other.squares += lost.all * lost.all;
         ++other.pairs;
       }
     }

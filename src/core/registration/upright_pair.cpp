@@ -15,8 +15,11 @@ constexpr double overlap_worth = 0.02;  // of a patch: where nothing else tells,
 constexpr double telling_overlap = 0.15;
 constexpr std::size_t aligned_points = 100;
 constexpr int outline_rounds = 6;
-constexpr std::size_t free_step = 2;  // turns from one to the next from which alignment finds the turn, too
-constexpr double least_gain = -60;    // what contradicts more is as wrong
+constexpr std::size_t free_step = 2;             // turns from one to the next from which alignment finds the turn, too
+constexpr double least_gain = -60;               // what contradicts more is as wrong
+constexpr double known_turn_deviation = 0.0175;  // [rad] 1 degree: of odometry and of the camera's place on the robot
+// What was captured from one place may have been turned by hand in between [rad], 5 degrees; [m].
+constexpr double least_known_turn = 0.087, least_known_shift = 0.03;
 constexpr double turn_step = 2 * double(EIGEN_PI) / double(pair_turns);
 
 /// The cell of a turn.
@@ -25,10 +28,26 @@ std::size_t turnAt(double angle) {
   return std::size_t(steps < 0 ? steps + long(pair_turns) : steps);
 }
 
+/// Turn of a against b by how the camera was moved in between; none: it is not known, or it was not moved.
+std::optional<double> knownTurn(const CapturedView& a, const CapturedView& b) {
+  if (!a.T_fixed_view || !b.T_fixed_view) return std::nullopt;
+  const Eigen::Isometry3d T_b_a = b.T_fixed_view->inverse() * *a.T_fixed_view;
+  if (Eigen::AngleAxisd(T_b_a.linear()).angle() < least_known_turn && T_b_a.translation().norm() < least_known_shift)
+    return std::nullopt;
+  return turnOf(poseOfItsOwn(b) * T_b_a * poseOfItsOwn(a).inverse());
+}
+
 }  // namespace
 
+double UprightPair::motionGain(double turn) const {
+  if (!known_turn) return 0;
+  const double apart = std::remainder(turn - *known_turn, 2 * double(EIGEN_PI)) / known_turn_deviation;
+  return std::max(least_gain, -0.5 * apart * apart);
+}
+
 double UprightPair::gainOf(const ViewEvidence& e) const {
-  return e.shape + (overlap_worth - best_shape) * e.matched + e.color - contradiction_loss * e.against;
+  const double color = known_turn ? 0 : e.color;  // light looks like print: it is only asked where nothing else tells
+  return e.shape + (overlap_worth - best_shape) * e.matched + color - contradiction_loss * e.against;
 }
 
 double UprightPair::bestGainNear(double turn) const {
@@ -42,8 +61,9 @@ double UprightPair::bestGainNear(double turn) const {
 UprightPair::Gain UprightPair::gainsAt(const std::vector<CapturedView>& views, const Eigen::Isometry3d& T_b_a,
                                        const VerificationSettings& settings) const {
   const ViewEvidence evidence = ViewComparison(views[a], views[b], settings).at(T_b_a, usual);
-  const double all = gainOf(evidence);
-  return {all, all - evidence.color};
+  const double turn = turnOf(poseOfItsOwn(views[b]) * T_b_a * poseOfItsOwn(views[a]).inverse());
+  const double pictures = gainOf(evidence), all = pictures + motionGain(turn);
+  return {all, known_turn ? all : all - evidence.color, pictures};
 }
 
 double UprightPair::gainAt(const std::vector<CapturedView>& views, const Eigen::Isometry3d& T_b_a,
@@ -73,6 +93,7 @@ UprightPair compareUpright(const std::vector<CapturedView>& views, std::size_t a
   UprightPair pair;
   pair.a = a;
   pair.b = b;
+  pair.known_turn = knownTurn(views[a], views[b]);
   const Eigen::Isometry3d own_a = poseOfItsOwn(views[a]), own_b = poseOfItsOwn(views[b]);
   ViewPoses poses(views.size());
   poses[b] = own_b;
@@ -105,7 +126,8 @@ UprightPair compareUpright(const std::vector<CapturedView>& views, std::size_t a
   for (UprightAlternative& alternative : pair.at_turn) alternative.gain = least_gain;
   for (std::size_t k = 0; k < tried.size(); ++k) {
     const std::size_t turn = tried[k].turn;
-    const double gain = std::max(least_gain, pair.gainOf(evidence[k]));
+    const double motion_gain = pair.motionGain(turnOf(own_b * tried[k].T_b_a * own_a.inverse()));
+    const double gain = std::max(least_gain, pair.gainOf(evidence[k]) + motion_gain);
     if (filled[turn] && gain <= pair.at_turn[turn].gain) continue;
     pair.at_turn[turn] = {tried[k].T_b_a, gain, evidence[k].overlap};
     filled[turn] = 1;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -30,22 +31,26 @@ struct UprightPair {
   /// objects have sides that are alike, but those that do not are one against it.
   double best_shape = 0;
   UsualPrints usual;
+  std::optional<double> known_turn;  ///< of a against b, by how the camera was moved [rad]
   /// By the turn of a against b, each view seen from its camera in the direction of x at turn 0.
   std::array<UprightAlternative, pair_turns> at_turn;
 
   /// What the alternatives near a turn of a against b say at best. @param turn [rad]
   double bestGainNear(double turn) const;
-  /// What evidence says for a pose [log-likelihood ratio]; 0: nothing.
+  /// What evidence says for a pose [log-likelihood ratio]; 0: nothing. Prints count where the turn is not known.
   double gainOf(const ViewEvidence& evidence) const;
-  /// With prints, and without.
   struct Gain {
-    double all = 0, shape = 0;
+    double all = 0;
+    double shape = 0;     ///< without prints
+    double pictures = 0;  ///< without the motion of the camera
   };
   /// The same of a pose. @param views of all pairs
   Gain gainsAt(const std::vector<CapturedView>& views, const Eigen::Isometry3d& T_b_a,
                const VerificationSettings& settings) const;
   double gainAt(const std::vector<CapturedView>& views, const Eigen::Isometry3d& T_b_a,
                 const VerificationSettings& settings) const;
+  /// What the motion of the camera says to a turn of a against b; 0: nothing. @param turn [rad]
+  double motionGain(double turn) const;
 };
 
 /// The pose of a view before anything is known of others: where its plane is known, z is the plane's normal, x points

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "core/surface/even_directions.hpp"
+
 namespace sks {
 namespace {
 
@@ -23,17 +25,6 @@ constexpr float top_agreement = 0.8f;       // ... and those of what faces up
 constexpr float flat = 0.01f;               // [m] of a plane face's height
 constexpr float least_of_face = 0.5f;       // of the base's rectangle is the face
 constexpr float stick_slenderness = 5;      // length over width and height
-
-/// Directions that cover the sphere evenly: a spiral.
-std::vector<Eigen::Vector3f> evenDirections(int count) {
-  std::vector<Eigen::Vector3f> all;
-  const double golden = EIGEN_PI * (3 - std::sqrt(5.0));
-  for (int i = 0; i < count; ++i) {
-    const double z = 1 - 2 * (i + 0.5) / count, radius = std::sqrt(1 - z * z);
-    all.push_back(Eigen::Vector3d(radius * std::cos(golden * i), radius * std::sin(golden * i), z).cast<float>());
-  }
-  return all;
-}
 
 using Rows = Eigen::Matrix<float, Eigen::Dynamic, 3>;  // a point each, axis by axis
 
@@ -58,7 +49,8 @@ Eigen::Vector3f farthest(const Rows& points, const Eigen::Vector3f& direction) {
 /// The points that can touch a plane, or nearly all of them.
 Rows outermost(const Rows& points) {
   std::vector<Eigen::Vector3f> all;
-  for (const Eigen::Vector3f& direction : evenDirections(2 * falls)) {
+  for (const Eigen::Vector3d& spread : evenDirections(2 * falls)) {
+    const Eigen::Vector3f direction = spread.cast<float>();
     const Eigen::Vector3f p = farthest(points, direction);
     if (std::find(all.begin(), all.end(), p) == all.end()) all.push_back(p);
   }
@@ -172,7 +164,8 @@ std::vector<RestingPose> restingPoses(const ModelSurface& model) {
   const Eigen::Vector3f center = points.colwise().mean();
   const Rows outer = outermost(points);
   std::vector<std::pair<int, Eigen::Vector3f>> ends;  // how many falls end there, and the first of them
-  for (const Eigen::Vector3f& direction : evenDirections(falls)) {
+  for (const Eigen::Vector3d& spread : evenDirections(falls)) {
+    const Eigen::Vector3f direction = spread.cast<float>();
     const Eigen::Vector3f down = settled(points, normals, fallen(direction, outer, center));
     const auto known =
         std::find_if(ends.begin(), ends.end(), [&](const auto& end) { return end.second.dot(down) > together; });

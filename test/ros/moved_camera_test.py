@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""docs/training.md, "Move the camera instead": a camera whose pose /tf tells is moved around a mug, whose handle is out
+of sight in half of the views. It is trained and found in one frame, in ten commands."""
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+import rospy
+import rostest
+from geometry_msgs.msg import PoseStamped
+
+import services_support
+import support
+from table_pictures import AROUND, ELSEWHERE, Camera, angle_of, recorded
+
+COMMANDS = 10
+
+
+class MovedCameraTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix="sks_moved_camera_")
+        cls.around = recorded(cls.folder, [dict(p, object="builtin:mug") for p in AROUND[::2]])
+        cls.elsewhere = recorded(cls.folder, [dict(p, object="builtin:mug") for p in ELSEWHERE])
+        cls.camera = Camera("/camera/points", "table")
+        cls.launch = subprocess.Popen(["roslaunch", "sks_detector", "train.launch", "folder:=" + cls.folder,
+                                       "fixed_frame:=table"])
+        cls.services = {name: rospy.ServiceProxy("/detector/" + name, kind)
+                        for name, kind in services_support.TYPES.items()}
+        for service in cls.services.values():
+            service.wait_for_service(support.PATIENCE)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.launch.send_signal(signal.SIGINT)
+        cls.launch.wait(support.PATIENCE)
+        cls.camera.stop()
+        shutil.rmtree(cls.folder)
+
+    def test_a_mug_has_one_frame_from_all_sides(self):
+        commands = 2  # camera and train.launch
+        for picture in self.around:
+            self.camera.show(picture)
+            reply = self.services["capture_view"](object="mug", timeout=support.PATIENCE)
+            commands += 1
+            self.assertTrue(reply.success, reply.message)
+            self.assertNotIn("is not known", reply.message)
+        self.assertEqual(reply.registered_views, len(self.around), reply.message)
+        self.assertEqual(reply.coverage, 1)
+        trained = self.services["train"](captured=True, output="mine.sks")
+        commands += 1
+        self.assertTrue(trained.success, trained.message)
+        with open(os.path.join(self.folder, "datasets", "captured", "dataset.yaml")) as file:
+            self.assertEqual(file.read().count("cloud_pose"), len(self.around))
+
+        poses = support.Recorder("/detector/objects/mug/pose", PoseStamped)
+        self.addCleanup(poses.close)
+        commands += 1  # rostopic echo
+        self.assertLessEqual(commands, COMMANDS)
+        for place, picture in zip(ELSEWHERE, self.elsewhere):
+            with self.subTest(**place):
+                since = self.camera.show(picture)
+                pose = poses.wait_for(lambda m, since=since: m.header.stamp >= since, "a pose of the mug").pose
+                error = (np.linalg.inv(self.around[0].T_table_model) @ picture.T_table_camera @
+                         support.matrix_of(pose))
+                self.assertLess(np.linalg.norm(error[:3, 3]), 0.005)
+                self.assertLess(angle_of(error), 3)
+
+
+if __name__ == "__main__":
+    rospy.init_node("moved_camera_test")
+    rostest.rosrun("sks_detector", "moved_camera", MovedCameraTest)
