@@ -38,6 +38,9 @@ constexpr double degree = double(EIGEN_PI) / 180;
 const std::vector<std::string> object_names{"banana",      "cracker_box",     "mug",  "mustard_bottle", "pitcher_base",
                                             "power_drill", "tomato_soup_can", "duck", "drill",          "box"};
 
+// What training knows.
+constexpr int pictures_alone = 0, moved_camera = 1, from_mesh = 2;
+
 struct PoseError {
   double shift = 0, turn = 0;  // [mm], at the object's middle; [deg]
   bool within(double mm, double deg) const { return shift <= mm && turn <= deg; }
@@ -186,14 +189,25 @@ void capturedPoses(benchmark::State& state) {
   }
   for (auto _ : state) {
     CapturedObject object(name, mesh, std::uint64_t(state.range(1)));
-    const RegisteredTraining trained = trainRegistered(object.capture(state.range(2) != 0), {}, name);
-    const RegisteredObject& registered = trained.objects.at(0);
-    const auto agreed = agreedFrame(object, registered);
-    state.counters["tied"] = double(registered.tied());
-    state.counters["words"] = double(trained.codebook.words.size());
-    if (agreed) reportViews(object, registered, *agreed, state);
+    const std::vector<TrainingSample> captured = object.capture(state.range(2) == moved_camera);
+    std::optional<Eigen::Isometry3d> agreed;
+    std::string frame = name;
+    auto codebook = std::make_shared<Codebook>();
+    if (state.range(2) == from_mesh) {
+      *codebook = train(meshSamples(name, frame, mesh, {}), {}, name);
+      agreed = test::standingPose(*mesh);
+    } else {
+      RegisteredTraining trained = trainRegistered(captured, {}, name);
+      const RegisteredObject& registered = trained.objects.at(0);
+      frame = registered.frame;
+      agreed = agreedFrame(object, registered);
+      state.counters["tied"] = double(registered.tied());
+      if (agreed) reportViews(object, registered, *agreed, state);
+      *codebook = std::move(trained.codebook);
+    }
+    state.counters["words"] = double(codebook->words.size());
 
-    const Detector detector(std::make_shared<const Codebook>(trained.codebook));
+    const Detector detector(codebook);
     double found = 0, own = 0, jumps = 0;
     std::vector<double> shifts, turns;
     for (int i = 0; i < pictures; ++i) {
@@ -202,7 +216,7 @@ void capturedPoses(benchmark::State& state) {
       if (detections.empty()) continue;
       ++found;
       const Detection& best = detections[0];
-      if (!agreed || best.view != registered.frame) {
+      if (!agreed || best.view != frame) {
         ++own;
         continue;
       }
@@ -221,11 +235,12 @@ void capturedPoses(benchmark::State& state) {
   }
 }
 
-// Number of the object; seed of the directions; whether it is known how the camera was moved.
+// Number of the object; seed of the directions; what training knows: pictures alone, with how the camera was moved, or
+// the mesh.
 BENCHMARK(capturedPoses)
     ->Apply([](benchmark::internal::Benchmark* all) {
       for (std::size_t i = 0; i < object_names.size(); ++i) {
-        for (const int moved : {0, 1}) all->Args({long(i), 1, moved});
+        for (const int known : {pictures_alone, moved_camera, from_mesh}) all->Args({long(i), 1, known});
       }
     })
     ->Iterations(1)
