@@ -30,7 +30,7 @@ Track::Track(std::uint32_t id, Hypothesis found, const Eigen::Isometry3d& T_refe
       begun_(stamp),
       seen_at_(stamp),
       examined_at_(stamp) {
-  remember(stamp);
+  remember(stamp, true);
 }
 
 double Track::score(const Settings& settings) const {
@@ -58,7 +58,7 @@ void Track::update(const FollowedObject& followed, Look look, const Eigen::Isome
     examined_ = true;
     if (seen_) color_shift_ = followed.color_shift;
   }
-  remember(stamp);
+  remember(stamp, seen_);
 }
 
 void Track::foundAgain(const Hypothesis& found, const Eigen::Isometry3d& T_reference_model, double stamp) {
@@ -68,18 +68,24 @@ void Track::foundAgain(const Hypothesis& found, const Eigen::Isometry3d& T_refer
   confirmed_ = false;
   examined_ = false;
   searches_ = 1;
+  past_.clear();
+  remember(stamp, true);
 }
 
 void Track::carry(const Eigen::Isometry3d& motion) {
   filter_.carry(motion);
-  past_.back().T_reference_model = filter_.pose();
+  if (!past_.back().measured) past_.back().T_reference_model = filter_.pose();
+}
+
+void Track::carryFromKnown(const Eigen::Isometry3d& motion) {
+  carry(motion * known_.T_reference_model * filter_.pose().inverse());
 }
 
 void Track::restart(const Eigen::Isometry3d& T_reference_model, double stamp) {
   filter_ = PoseFilter(T_reference_model, center_, stamp);
   elsewhere_.reset();
   past_.clear();
-  remember(stamp);
+  remember(stamp, true);
 }
 
 Eigen::Isometry3d Track::poseAt(double stamp) const {
@@ -95,8 +101,15 @@ void Track::pool(double evidence, double seconds) {
   hypothesis_.evidence = std::exp(logarithm);
 }
 
-void Track::remember(double stamp) {
-  past_.push_back({stamp, filter_.pose()});
+std::optional<Eigen::Isometry3d> Track::measuredAt(double stamp) const {
+  const auto same = std::find_if(past_.begin(), past_.end(), [&](const Past& p) { return p.stamp == stamp; });
+  if (same == past_.end() || !same->measured) return {};
+  return same->T_reference_model;
+}
+
+void Track::remember(double stamp, bool measured) {
+  past_.push_back({stamp, filter_.pose(), measured});
+  if (measured) known_ = past_.back();
   while (past_.front().stamp < stamp - kept_past) past_.pop_front();
 }
 

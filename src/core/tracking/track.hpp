@@ -18,6 +18,7 @@ namespace sks {
 /// An object that is followed: who it is, where it is in the reference frame, and how certain that is.
 class Track {
 public:
+  /// @param T_reference_model where it was found in the cloud of `stamp`
   /// @param center of the object's box [m], model frame
   Track(std::uint32_t id, Hypothesis found, const Eigen::Isometry3d& T_reference_model, const Eigen::Vector3d& center,
         double stamp);
@@ -53,18 +54,26 @@ public:
   const std::optional<Eigen::Isometry3d>& elsewhere() const { return elsewhere_; }
   /// What is not seen moves with all else.
   void carry(const Eigen::Isometry3d& motion);
+  /// What is known of it has moved so since knownAt().
+  void carryFromKnown(const Eigen::Isometry3d& motion);
   /// Begins with another reference frame, in which nothing is known of its motion.
   void restart(const Eigen::Isometry3d& T_reference_model, double stamp);
   /// Pose in the reference frame at the time of an earlier cloud.
   Eigen::Isometry3d poseAt(double stamp) const;
+  /// Pose in the reference frame in an earlier cloud, if a search found the object in it, or it was seen in it, and no
+  /// search found it elsewhere since.
+  std::optional<Eigen::Isometry3d> measuredAt(double stamp) const;
+  /// Last time at which it was seen, or that of the cloud in which a search found it since [s].
+  double knownAt() const { return known_.stamp; }
 
 private:
   void pool(double evidence, double seconds);
-  void remember(double stamp);
+  void remember(double stamp, bool measured);
 
   struct Past {
     double stamp;
     Eigen::Isometry3d T_reference_model;
+    bool measured;  ///< the object was seen there, or found by a search
   };
 
   std::uint32_t id_;
@@ -72,6 +81,7 @@ private:
   Eigen::Vector3d center_;
   PoseFilter filter_;
   std::deque<Past> past_;
+  Past known_;  // the last one that was measured
   std::optional<Eigen::Isometry3d> elsewhere_;
   bool seen_ = true, hidden_ = false, confirmed_ = false;
   double begun_, seen_at_;

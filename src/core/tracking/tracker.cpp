@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "core/tracking/tracker_state.hpp"
@@ -30,6 +31,7 @@ std::vector<TrackedObject> Tracker::follow(const Cloud& cloud, const CloudView& 
   State& s = *state_;
   const double before = s.stamp;
   s.enter(view);
+  if (!s.fixed) s.scene_motion.add(cloud, view.stamp);
   const std::vector<Look> looks = s.looks(view.stamp);
   const std::vector<FollowedObject> found = s.look(cloud, view, looks);
   std::vector<Examined> colors;
@@ -45,10 +47,8 @@ std::vector<TrackedObject> Tracker::follow(const Cloud& cloud, const CloudView& 
   if (!colors.empty()) {
     s.color_shift = sceneColorShift(colors, color_doubt * s.settings().verification.half_evidence);
   }
-  const Eigen::Isometry3d motion = s.motionSince(before);
-  for (Track& track : s.tracks) {
-    if (!track.seen()) track.carry(motion);
-  }
+  s.carryUnseen(before);
+  s.keepStep(before);
   s.dropDoubles();
   s.dropOld(view.stamp);
   std::vector<TrackedObject> objects;
@@ -68,7 +68,8 @@ void Tracker::take(const DetectionResult& result, const CloudView& view) {
   s.searched_at = view.stamp;
   if (view.T_fixed_cloud.has_value() != s.fixed && s.followed) return;  // of another reference frame: too late
   if (!s.followed) s.enter(view);
-  for (const Detection& detection : result.above(s.settings().detection.threshold)) s.takeOne(detection, view);
+  std::optional<Eigen::Isometry3d> motion;
+  for (const Detection& detection : result.above(s.settings().detection.threshold)) s.takeOne(detection, view, motion);
 }
 
 bool Tracker::wantsDetection(double stamp) const {

@@ -10,8 +10,7 @@
 namespace sks {
 namespace {
 
-constexpr double examination = 0.5;   // [s] between full looks at an object
-constexpr double same_motion = 0.01;  // [m] by which centres may be off that move alike
+constexpr double examination = 0.5;  // [s] between full looks at an object
 
 }  // namespace
 
@@ -19,6 +18,7 @@ constexpr double same_motion = 0.01;  // [m] by which centres may be off that mo
 void Tracker::State::enter(const CloudView& view) {
   if (followed && view.stamp < stamp) {
     tracks.clear();
+    scene_motion.clear();
     searched = false;
   }
   const Eigen::Isometry3d before = T_reference_cloud;
@@ -48,36 +48,18 @@ std::vector<FollowedObject> Tracker::State::look(const Cloud& cloud, const Cloud
                                                  const std::vector<Look>& looks) const {
   std::vector<FollowedObject> found(tracks.size());
   const Eigen::Isometry3d T_cloud_reference = T_reference_cloud.inverse();
+  const std::optional<Eigen::Isometry3d> step = stepTo(view.stamp);
 #pragma omp parallel for schedule(dynamic, 1) num_threads(startableThreads(settings()))
   for (std::size_t i = 0; i < tracks.size(); ++i) {
     const PoseFilter& filter = tracks[i].filter();
-    std::vector<Eigen::Isometry3d> starts{T_cloud_reference * filter.predicted(view.stamp)};
-    if (!filter.stands()) starts.push_back(T_cloud_reference * filter.pose());  // or it has stopped
+    std::vector<Eigen::Isometry3d> starts;
+    if (step) starts.push_back(T_cloud_reference * *step * filter.pose());  // with the camera's motion, as what stands
+    if (!step || !filter.stands()) starts.push_back(T_cloud_reference * filter.predicted(view.stamp));
+    if (!step && !filter.stands()) starts.push_back(T_cloud_reference * filter.pose());  // or it has stopped
     if (tracks[i].elsewhere()) starts.push_back(T_cloud_reference * *tracks[i].elsewhere());
     found[i] = follower.follow(cloud, tracks[i].hypothesis(), starts, color_shift, looks[i]);
   }
   return found;
-}
-
-/// Where no frame is known in which things stand still: how most of what is seen has moved in the frame of the cloud
-/// since an earlier cloud, for the camera has moved. Else, and where nothing tells, not at all.
-Eigen::Isometry3d Tracker::State::motionSince(double then) const {
-  Eigen::Isometry3d common = Eigen::Isometry3d::Identity();
-  std::ptrdiff_t most = 0;
-  if (fixed) return common;
-  const auto tells = [&](const Track& track) { return track.seen() && track.confirmed() && track.begun() <= then; };
-  for (const Track& track : tracks) {
-    if (!tells(track)) continue;
-    const Eigen::Isometry3d motion = track.filter().pose() * track.poseAt(then).inverse();
-    const std::ptrdiff_t alike = std::count_if(tracks.begin(), tracks.end(), [&](const Track& other) {
-      const Eigen::Vector3d moved = motion * (other.poseAt(then) * other.center());
-      return tells(other) && (moved - other.filter().pose() * other.center()).norm() < same_motion;
-    });
-    if (alike <= most) continue;
-    most = alike;
-    common = motion;
-  }
-  return common;
 }
 
 /// One thing is not there twice: of two tracks of an object at one place the older one stays.

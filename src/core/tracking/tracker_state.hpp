@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <sks_detector/error.hpp>
@@ -11,6 +13,7 @@
 
 #include "core/pipeline/default_stages.hpp"
 #include "core/tracking/object_follower.hpp"
+#include "core/tracking/scene_motion.hpp"
 #include "core/tracking/track.hpp"
 
 namespace sks {
@@ -37,11 +40,15 @@ struct Tracker::State {
   void enter(const CloudView& view);
   std::vector<Look> looks(double stamp) const;
   std::vector<FollowedObject> look(const Cloud& cloud, const CloudView& view, const std::vector<Look>& looks) const;
-  Eigen::Isometry3d motionSince(double then) const;
+  std::optional<Eigen::Isometry3d> motionSince(double then, std::ptrdiff_t least_alike = 1) const;
+  Eigen::Isometry3d motionSinceSearched(double then) const;
+  std::optional<Eigen::Isometry3d> stepTo(double next) const;
+  void keepStep(double last);
+  void carryUnseen(double last);
   void dropDoubles();
   void dropOld(double stamp);
   TrackedObject told(const Track& track, double stamp) const;
-  void takeOne(const Detection& detection, const CloudView& view);
+  void takeOne(const Detection& detection, const CloudView& view, std::optional<Eigen::Isometry3d>& motion);
   Hypothesis hypothesisOf(const Detection& detection) const;
   Track* sameObject(const Hypothesis& found, const Eigen::Isometry3d& T_reference_model, double stamp);
   Track* atPlaceOf(const Hypothesis& found, const Eigen::Isometry3d& T_reference_model, double stamp);
@@ -49,13 +56,16 @@ struct Tracker::State {
   Detector detector;
   ObjectFollower follower;
   std::vector<Track> tracks;
+  SceneMotion scene_motion;  // of clouds without a fixed frame
   TrackingCounts counts;
   std::uint32_t next_id;
   Eigen::Vector3f color_shift = Eigen::Vector3f::Zero();
   Eigen::Isometry3d T_reference_cloud = Eigen::Isometry3d::Identity();  // of the last cloud
   bool fixed = false;  // the reference is a frame in which things stand still
   bool followed = false, searched = false;
-  double stamp = 0, searched_at = 0;  // [s]
+  std::optional<Eigen::Isometry3d> last_step;  // motionSince() the cloud before the last one
+  double last_step_took = 0, last_stamp = 0;   // [s]
+  double stamp = 0, searched_at = 0;           // [s]
 };
 
 }  // namespace sks

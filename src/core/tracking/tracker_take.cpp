@@ -65,15 +65,18 @@ Track* Tracker::State::atPlaceOf(const Hypothesis& found, const Eigen::Isometry3
   return nullptr;
 }
 
-void Tracker::State::takeOne(const Detection& detection, const CloudView& view) {
+/// @param motion motionSinceSearched(), once a detection has asked for it
+void Tracker::State::takeOne(const Detection& detection, const CloudView& view,
+                             std::optional<Eigen::Isometry3d>& motion) {
   const Hypothesis found = hypothesisOf(detection);
   const Eigen::Isometry3d T_reference_model = referenceOf(view) * found.T_scene_model;
-  const Eigen::Isometry3d T_now_model = motionSince(view.stamp) * T_reference_model;
   if (Track* same = sameObject(found, T_reference_model, view.stamp)) {
     const bool better_pose = found.evidence > outdone_by * same->hypothesis().evidence;
     if (same->seen() && !better_pose) return same->foundHere();
+    if (!motion) motion = motionSinceSearched(view.stamp);
     if (!same->seen()) ++counts.found_again;
-    same->foundAgain(found, T_now_model, view.stamp);
+    same->foundAgain(found, T_reference_model, view.stamp);
+    same->carryFromKnown(*motion);
     same->alsoAt(T_reference_model);
     return;
   }
@@ -82,7 +85,9 @@ void Tracker::State::takeOne(const Detection& detection, const CloudView& view) 
     ++counts.identity_changes;
     tracks.erase(tracks.begin() + (other - tracks.data()));
   }
-  tracks.emplace_back(next_id++, found, T_now_model, centerOf(found.view), view.stamp);
+  if (!motion) motion = motionSinceSearched(view.stamp);
+  tracks.emplace_back(next_id++, found, T_reference_model, centerOf(found.view), view.stamp);
+  tracks.back().carryFromKnown(*motion);
   tracks.back().alsoAt(T_reference_model);
   ++counts.begun;
 }
