@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include <sks_detector/thresholds.hpp>
+
 #include "core/tracking/tracker_state.hpp"
 #include "core/verification/color_shift.hpp"
 
@@ -68,7 +70,7 @@ void Tracker::take(const DetectionResult& result, const CloudView& view) {
   s.searched_at = view.stamp;
   if (view.T_fixed_cloud.has_value() != s.fixed && s.followed) return;  // of another reference frame: too late
   if (!s.followed) s.enter(view);
-  for (const Detection& detection : result.above(s.settings().detection.threshold)) s.takeOne(detection, view);
+  for (const Detection& detection : result.above(Thresholds(s.settings().detection))) s.takeOne(detection, view);
 }
 
 bool Tracker::wantsDetection(double stamp) const {
