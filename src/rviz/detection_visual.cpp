@@ -53,7 +53,7 @@ DetectionVisual::DetectionVisual(rviz::DisplayContext& context, Ogre::SceneNode&
       faces_(std::make_unique<rviz::Shape>(rviz::Shape::Cube, &scene_, node_)),
       axes_(std::make_unique<rviz::Axes>(&scene_, node_)),
       selection_(std::make_unique<DetectionSelection>(context)),
-      model_(std::make_unique<ModelVisual>(scene_, *node_, *selection_)) {
+      model_(std::make_unique<ModelVisual>(scene_, *node_)) {
   edges_->setNumLines(edge_count);
   edges_->setMaxPointsPerLine(2);
   selection_->addTrackedObjects(faces_->getRootNode());
@@ -76,7 +76,7 @@ void DetectionVisual::show(const ShownDetection& shown, const Detection& message
                            const DetectionStyle& style) {
   T_scene_box_ = shown.detection.T_scene_box;
   box_size_ = shown.detection.box_size;
-  drawBox(!model, color, style.alpha);
+  drawBox(!model, color, model ? 0 : style.alpha);
 
   const Eigen::Isometry3d& T_scene_model = shown.detection.T_scene_model;
   const Ogre::Vector3 model_origin = vectorOf(T_scene_model.translation());
@@ -113,16 +113,14 @@ void DetectionVisual::drawLabel(const std::string& text, const Ogre::ColourValue
   }
 }
 
-void DetectionVisual::drawBox(bool visible, const Ogre::ColourValue& color, float alpha) {
-  faces_->getRootNode()->setVisible(visible);
-  edges_->clear();
-  if (!visible) return;
+void DetectionVisual::drawBox(bool with_edges, const Ogre::ColourValue& color, float alpha) {
   const Ogre::Vector3 center = vectorOf(T_scene_box_.translation());
   const Ogre::Quaternion turn = turnOf(T_scene_box_.linear());
   Ogre::Vector3 size = vectorOf(box_size_);
+  edges_->clear();
   edges_->setPosition(center);
   edges_->setOrientation(turn);
-  drawEdges(size, color);
+  if (with_edges) drawEdges(size, color);
   size.makeCeil(Ogre::Vector3(thinnest_face));
   faces_->setPosition(center);
   faces_->setOrientation(turn);

@@ -61,7 +61,8 @@ public:
 
 private:
   void drawLabel(const std::string& text, const Ogre::ColourValue& color, bool visible);
-  void drawBox(bool visible, const Ogre::ColourValue& color, float alpha);
+  /// The faces are there even where they cannot be seen: they are what is selected.
+  void drawBox(bool with_edges, const Ogre::ColourValue& color, float alpha);
   void drawEdges(const Ogre::Vector3& size, const Ogre::ColourValue& color);
 
   Ogre::SceneManager& scene_;

@@ -6,8 +6,6 @@
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 #include <rviz/ogre_helpers/point_cloud.h>
-#include <rviz/selection/selection_handler.h>
-#include <rviz/selection/selection_manager.h>
 
 namespace sks_detector {
 namespace {
@@ -17,18 +15,13 @@ constexpr float coverage = 1.5;  // diameter of the points in spacings: no gaps,
 
 }  // namespace
 
-ModelVisual::ModelVisual(Ogre::SceneManager& scene, Ogre::SceneNode& parent, rviz::SelectionHandler& selection)
-    : scene_(scene),
-      node_(parent.createChildSceneNode()),
-      selection_(selection),
-      points_(std::make_unique<rviz::PointCloud>()) {
+ModelVisual::ModelVisual(Ogre::SceneManager& scene, Ogre::SceneNode& parent)
+    : scene_(scene), node_(parent.createChildSceneNode()), points_(std::make_unique<rviz::PointCloud>()) {
   points_->setRenderMode(rviz::PointCloud::RM_SPHERES);
   node_->attachObject(points_.get());
-  selection_.addTrackedObject(points_.get());
 }
 
 ModelVisual::~ModelVisual() {
-  selection_.removeTrackedObject(points_.get());
   node_->detachAllObjects();
   points_.reset();
   scene_.destroySceneNode(node_);
@@ -55,7 +48,6 @@ void ModelVisual::show(const std::shared_ptr<const ObjectCloud>& model, const Og
   const float diameter = coverage * model->spacing;
   points_->setDimensions(diameter, diameter, diameter);
   points_->addPoints(drawn.data(), std::uint32_t(drawn.size()));
-  points_->setPickColor(rviz::SelectionManager::handleToColor(selection_.getHandle()));  // of what was just made
 }
 
 void ModelVisual::setPose(const Ogre::Vector3& position, const Ogre::Quaternion& orientation) {

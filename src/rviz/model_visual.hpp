@@ -11,7 +11,6 @@
 
 namespace rviz {
 class PointCloud;
-class SelectionHandler;
 }  // namespace rviz
 
 namespace sks_detector {
@@ -19,8 +18,7 @@ namespace sks_detector {
 /// The points of an object's model; its Ogre objects go with it. To be used in the thread that draws.
 class ModelVisual {
 public:
-  /// @param selection that the points belong to; must live longer
-  ModelVisual(Ogre::SceneManager& scene, Ogre::SceneNode& parent, rviz::SelectionHandler& selection);
+  ModelVisual(Ogre::SceneManager& scene, Ogre::SceneNode& parent);
   ~ModelVisual();
   ModelVisual(const ModelVisual&) = delete;
   ModelVisual& operator=(const ModelVisual&) = delete;
@@ -34,7 +32,6 @@ public:
 private:
   Ogre::SceneManager& scene_;
   Ogre::SceneNode* node_;
-  rviz::SelectionHandler& selection_;
   std::unique_ptr<rviz::PointCloud> points_;
   std::shared_ptr<const ObjectCloud> model_;  // that is shown
   Ogre::ColourValue color_;
