@@ -15,7 +15,7 @@ else()
     "scripts/install_dependencies installs it")
 endif()
 if(sks_ros)
-  add_message_files(FILES Detection.msg DetectionArray.msg Status.msg Support.msg)
+  add_message_files(FILES Detection.msg DetectionArray.msg ObjectModel.msg ObjectModels.msg Status.msg Support.msg)
   add_service_files(FILES CaptureView.srv Detect.srv Info.srv LoadCodebook.srv RemoveObject.srv SaveCodebook.srv
     Train.srv UndoCapture.srv)
   add_action_files(FILES Train.action)

@@ -15,9 +15,9 @@ endif()
 
 file(GLOB rviz_sources CONFIGURE_DEPENDS src/rviz/*.cpp)
 file(GLOB rviz_headers CONFIGURE_DEPENDS src/rviz/*.hpp)
-# Of the node only what turns messages into detections, and what asks the master without waiting for it.
-add_library(${PROJECT_NAME}_rviz SHARED ${rviz_sources} ${rviz_headers} src/ros/detection_message.cpp
-  src/ros/master_access.cpp)
+# Of the node only what turns messages into detections and clouds, and what asks the master without waiting for it.
+add_library(${PROJECT_NAME}_rviz SHARED ${rviz_sources} ${rviz_headers} src/ros/cloud_message.cpp
+  src/ros/detection_message.cpp src/ros/master_access.cpp)
 add_dependencies(${PROJECT_NAME}_rviz ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
 target_include_directories(${PROJECT_NAME}_rviz PUBLIC src)
 #catkin_lint: ignore_once external_directory external_interface_path

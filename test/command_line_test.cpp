@@ -217,6 +217,26 @@ TEST_F(CommandLine, DetectionStartsFromTheSettingsOfTheCodebook) {
               AllOf(HasSubstr("descriptor.radius"), HasSubstr("0.04"), HasSubstr("0.05"), HasSubstr("train")));
 }
 
+TEST_F(CommandLine, ObjectsMayHaveThresholdsOfTheirOwn) {
+  ASSERT_EQ(train({"--set", "detection.threshold=1"}).status, 0);
+  const auto found = [&](const std::string& thresholds) {
+    const CommandRun run = detect("bumps.pcd", {"--json", "-", "--set", "detection.thresholds=" + thresholds});
+    EXPECT_EQ(run.status, 0) << run.errors;
+    return std::make_pair(json::parse(run.output), run.errors);
+  };
+  const auto [usual, no_warning] = found("");
+  EXPECT_EQ(usual["clouds"][0]["detections"].size(), 0u);
+  EXPECT_EQ(usual["thresholds"], json::object());
+  const auto [low, low_warning] = found("bumps=0.5");
+  EXPECT_EQ(low["clouds"][0]["detections"].size(), 1u);
+  EXPECT_EQ(low["thresholds"], json({{"bumps", 0.5}}));
+  EXPECT_EQ(no_warning + low_warning, "");
+  const auto [other, warning] = found("bump=0.5");
+  EXPECT_EQ(other["clouds"][0]["detections"].size(), 0u);
+  EXPECT_THAT(warning, HasSubstr("'bump' is not in the codebook; did you mean 'bumps'?"));
+  EXPECT_THAT(failure(detect("bumps.pcd", {"--set", "detection.thresholds=bumps"})), HasSubstr("object=score"));
+}
+
 TEST_F(CommandLine, UnusableCodebooks) {
   const std::string start = "sks: cannot read codebook '" + path("toys.sks") + "': ";
   EXPECT_EQ(failure(detect("bumps.pcd")), start + "No such file or directory\n");

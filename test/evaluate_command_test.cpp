@@ -250,6 +250,16 @@ TEST_F(EvaluateCommand, WhatIsNotThereIsNull) {
   EXPECT_TRUE(result["pose"]["t_diff"]["median"].is_null());
 }
 
+TEST_F(EvaluateCommand, ThresholdsOfSingleObjectsReplaceTheGeneralOne) {
+  const json all = evaluated(), none = evaluated({"--set", "detection.threshold=1"});
+  const json own = evaluated({"--set", "detection.threshold=1", "--set", "detection.thresholds=bumps=0"});
+  EXPECT_GT(all["true_positives"].get<int>(), none["true_positives"].get<int>());
+  for (const std::string key : {"true_positives", "false_positives", "average_precision"}) {
+    EXPECT_EQ(own["objects"]["bumps"][key], all["objects"]["bumps"][key]) << key;
+  }
+  EXPECT_EQ(own["thresholds"], json({{"bumps", 0.0}}));
+}
+
 TEST_F(EvaluateCommand, DrawsPlotsAndAPictureOfEachScene) {
   const std::string plots = folder_.path("plots");
   const CommandRun run = evaluate({"--plot", plots});

@@ -9,6 +9,8 @@
 
 namespace sks {
 
+class Thresholds;
+
 /// An object found in a cloud, in the frame of the cloud.
 struct Detection {
   std::string object;  ///< name
@@ -56,6 +58,8 @@ struct DetectionResult {
 
   /// Those with at least the given score.
   std::vector<Detection> above(double threshold) const;
+  /// Those with at least the score that their object needs.
+  std::vector<Detection> above(const Thresholds& thresholds) const;
 };
 
 }  // namespace sks

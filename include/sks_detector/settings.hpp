@@ -309,6 +309,7 @@ struct VerificationSettings {
 struct DetectionSettings {
   Hypotheses hypotheses = Hypotheses::verified;
   double threshold = 0.5;
+  std::string thresholds;
   double half_density = 8.0;
   int max_per_object = 20;
 
@@ -320,6 +321,9 @@ struct DetectionSettings {
       "RANSAC, scored by their votes alone, as published");
     v(s.threshold, "threshold", Range{0, 1}, "",
       "lowest score of a detection that is reported; larger: fewer false detections, but more objects are missed");
+    v(s.thresholds, "thresholds",
+      "lowest scores of single objects in place of threshold, for example mug=0.7,box=0.4; names of objects that the "
+      "codebook does not hold do nothing. Empty: threshold holds for all");
     v(s.half_density, "half_density", Range{0.001, 10000}, "votes",
       "density of the inliers' votes that gives the score 0.5 to an object whose training view has 270 codewords; it "
       "is "
@@ -407,7 +411,7 @@ struct Settings {
 /// What a front end needs to know about one setting.
 struct SettingInfo {
   std::string key;            ///< dotted, e.g. "keypoints.discard"
-  std::string type;           ///< "double", "int", "bool", "choice" or, of node and camera, "string"
+  std::string type;           ///< "double", "int", "bool", "choice" or "string"
   std::string default_value;  ///< as getSetting() would print it
   Range range;                ///< of numbers
   std::string unit;           ///< "m", or empty for a plain number

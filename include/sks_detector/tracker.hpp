@@ -68,7 +68,7 @@ public:
   std::vector<TrackedObject> follow(const Cloud& cloud, const CloudView& view);
 
   /// Begins tracks with what was found in a cloud, finds lost ones again, and forgets those that turned out to be
-  /// something else. Detections below `detection.threshold` do not count.
+  /// something else. Detections below the threshold of their object do not count.
   /// @param view of the cloud that was searched: the last one or an earlier one of the last few seconds
   void take(const DetectionResult& result, const CloudView& view);
 

@@ -5,6 +5,7 @@
 
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
+#include <sks_detector/thresholds.hpp>
 
 #include "evaluation/peak_memory.hpp"
 #include "evaluation/result_fields.hpp"
@@ -31,18 +32,20 @@ PoseErrors summarize(const std::vector<PoseError>& errors) {
 /// Gathers what a score is made of, over scenes.
 struct Gathered {
   std::size_t ground_truth = 0;
-  std::vector<RankedDetection> ranking;
+  std::vector<RankedDetection> ranking, counted;
   std::vector<PoseError> pose_errors;
 
-  void add(const MatchedDetection& matched, double threshold) {
+  void add(const MatchedDetection& matched, bool enough) {
     const bool hit = matched.outcome == Outcome::true_positive;
     ranking.push_back({matched.detection.score, hit});
-    if (matched.pose_error && matched.detection.score >= threshold) pose_errors.push_back(*matched.pose_error);
+    if (!enough) return;
+    counted.push_back(ranking.back());
+    if (matched.pose_error) pose_errors.push_back(*matched.pose_error);
   }
 
-  Score score(double threshold) const {
+  Score score() const {
     Score result;
-    result.tally = tallyAt(ranking, ground_truth, threshold);
+    result.tally = tallyAt(counted, ground_truth, 0);
     result.average_precision = averagePrecision(precisionRecallCurve(ranking, ground_truth), ground_truth);
     result.ranking = ranking;
     result.pose = summarize(pose_errors);
@@ -113,6 +116,7 @@ Evaluation evaluate(const DataSet& data_set, const DetectFunction& detect, const
   evaluation.method = method;
   evaluation.settings = settings;
   evaluation.threshold = settings.detection.threshold;
+  evaluation.thresholds = Thresholds(settings.detection).ofSingleObjects();
   evaluation.max_distance = data_set.max_distance;
   const std::vector<Scene>& scenes = data_set.scenes;
   dealOut<DetectionResult>(
@@ -130,6 +134,11 @@ Evaluation evaluate(const DataSet& data_set, const DetectFunction& detect, const
   return evaluation;
 }
 
+bool counts(const Evaluation& evaluation, const Detection& detection) {
+  const auto single = evaluation.thresholds.find(detection.object);
+  return detection.score >= (single == evaluation.thresholds.end() ? evaluation.threshold : single->second);
+}
+
 void scoreScenes(Evaluation& evaluation) {
   Gathered total;
   std::map<std::string, Gathered> objects;
@@ -141,13 +150,14 @@ void scoreScenes(Evaluation& evaluation) {
     }
     for (const MatchedDetection& matched : result.detections) {
       if (matched.outcome == Outcome::ignored) continue;
-      total.add(matched, evaluation.threshold);
-      objects[matched.detection.object].add(matched, evaluation.threshold);
+      const bool enough = counts(evaluation, matched.detection);
+      total.add(matched, enough);
+      objects[matched.detection.object].add(matched, enough);
     }
   }
-  evaluation.total = total.score(evaluation.threshold);
+  evaluation.total = total.score();
   evaluation.objects.clear();
-  for (const auto& [name, gathered] : objects) evaluation.objects[name] = gathered.score(evaluation.threshold);
+  for (const auto& [name, gathered] : objects) evaluation.objects[name] = gathered.score();
   evaluation.times = timeSpreads(evaluation.scenes);
 }
 

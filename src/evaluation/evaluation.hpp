@@ -58,14 +58,15 @@ struct TimeQuantiles {
 
 /// The outcome of an evaluation.
 struct Evaluation {
-  std::string data_set;     ///< name
-  std::string method;       ///< name
-  Settings settings;        ///< what the detections were made with
-  double threshold = 0;     ///< the fixed score from which on detections count: settings.detection.threshold
-  double max_distance = 0;  ///< of the matching rule [m]
-  Score total;              ///< all objects pooled
-  std::map<std::string, Score> objects;  ///< every object of the ground truth or of a detection
-  std::vector<SceneResult> scenes;       ///< in the order of the data set
+  std::string data_set;  ///< name
+  std::string method;    ///< name
+  Settings settings;     ///< what the detections were made with
+  double threshold = 0;  ///< the fixed score from which on detections count: settings.detection.threshold
+  std::map<std::string, double> thresholds;  ///< and in its place for single objects: settings.detection.thresholds
+  double max_distance = 0;                   ///< of the matching rule [m]
+  Score total;                               ///< all objects pooled
+  std::map<std::string, Score> objects;      ///< every object of the ground truth or of a detection
+  std::vector<SceneResult> scenes;           ///< in the order of the data set
   std::vector<std::pair<std::string, TimeQuantiles>>
       times;                  ///< of each stage, `total` first; reading files not counted
   double peak_memory_mb = 0;  ///< greatest resident size of the process so far [MiB]
@@ -75,13 +76,16 @@ struct Evaluation {
 
 /// Detects in every scene and scores what is found.
 /// @param method name that stands in the result
-/// @param settings that `detect` works with; its detection.threshold is the fixed threshold
+/// @param settings that `detect` works with; its detection.threshold and thresholds are the fixed ones
 /// @param progress called before each scene and once at the end
 /// @param share where given, its processes detect; only the leader's result is whole
 /// @throws Error(bad_data) for a data set without scenes; any error of reading or detecting with the name of the scene
 ///         and its file; Error(cancelled)
 Evaluation evaluate(const DataSet& data_set, const DetectFunction& detect, const std::string& method,
                     const Settings& settings, const Progress& progress = {}, WorkShare* share = nullptr);
+
+/// Whether the score of a detection is enough to count.
+bool counts(const Evaluation& evaluation, const Detection& detection);
 
 /// The part of evaluate() that scores what was found: fills in total, objects and times from the scenes.
 void scoreScenes(Evaluation& evaluation);

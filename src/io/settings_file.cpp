@@ -4,14 +4,18 @@
 #include <sstream>
 
 #include "core/settings/detector_table.hpp"
+#include "core/settings/number_format.hpp"
 #include "io/file.hpp"
 #include "io/settings_yaml.hpp"
 
 namespace sks {
 namespace {
 
+constexpr unsigned char first_printable = 0x20;
+
 std::string describe(const SettingInfo& info) {
-  return info.help + " (" + allowedValues(info) + "; default " + info.default_value +
+  return info.help + " (" + allowedValues(info) + "; default " +
+         (info.default_value.empty() ? "empty" : info.default_value) +
          (info.binding == Binding::codebook ? "; fixed by the codebook)" : ")");
 }
 
@@ -27,6 +31,17 @@ std::string comment(const std::string& text, const std::string& indent) {
     line += " " + word;
   }
   return result + line + "\n";
+}
+
+/// Text in double quotes, as YAML takes any.
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') result += '\\';
+    result += code < first_printable ? formatted("\\x%02x", code) : std::string(1, c);
+  }
+  return result + "\"";
 }
 
 }  // namespace
@@ -51,7 +66,8 @@ std::string settingsToYaml(const Settings& settings, bool comments) {
     group = info_group;
     const std::string indent = group.empty() ? "" : "  ";
     if (comments) text += comment(describe(info), indent);
-    text += indent + info.key.substr(dot + 1) + ": " + getSetting(settings, info.key) + "\n";
+    const std::string value = getSetting(settings, info.key);
+    text += indent + info.key.substr(dot + 1) + ": " + (info.type == "string" ? quoted(value) : value) + "\n";
   }
   return text;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <sks_detector/detector.hpp>
+#include <sks_detector/thresholds.hpp>
 
 #include "python/module.hpp"
 
@@ -9,22 +10,23 @@ namespace {
 std::unique_ptr<Detector> makeDetector(const py::object& given, const py::object& settings) {
   const std::shared_ptr<const Codebook> codebook = codebookOf(given);
   const Settings wanted = overlaid(codebook->settings, settings);
+  warn(thresholdWarnings(wanted.detection, codebook->objects));
   const py::gil_scoped_release others_run;
   return std::make_unique<Detector>(codebook, wanted);
 }
 
-std::vector<Detection> detectIn(const Detector& detector, const Cloud& cloud, double threshold) {
+std::vector<Detection> detectIn(const Detector& detector, const Cloud& cloud, const Thresholds& thresholds) {
   const py::gil_scoped_release others_run;
-  return detector.detect(cloud).above(threshold);
+  return detector.detect(cloud).above(thresholds);
 }
 
 py::list detect(const Detector& detector, const py::object& points, const py::object& colors, std::size_t width,
                 const py::object& sensor_origin, const py::object& threshold) {
   const std::shared_ptr<Cloud> cloud = cloudOf(points, colors, width, sensor_origin);
-  const double least =
-      threshold.is_none() ? detector.settings().detection.threshold : py::float_(threshold).cast<double>();
+  const Thresholds thresholds = threshold.is_none() ? Thresholds(detector.settings().detection)
+                                                    : Thresholds(py::float_(threshold).cast<double>());
   py::list list;
-  for (Detection& found : detectIn(detector, *cloud, least)) {
+  for (Detection& found : detectIn(detector, *cloud, thresholds)) {
     list.append(py::cast(std::move(found)));
   }
   return list;
@@ -68,7 +70,7 @@ void addDetector(py::module& module) {
       .def(py::init(&makeDetector), py::arg("codebook"), py::arg("settings") = py::none())
       .def("detect", &detect, py::arg("points"), py::arg("colors") = py::none(), py::arg("width") = 0,
            py::arg("sensor_origin") = py::none(), py::arg("threshold") = py::none(),
-           "Detections with at least the threshold (None: detection.threshold), best first.")
+           "Detections with at least the threshold (None: detection.threshold and detection.thresholds), best first.")
       .def_property_readonly("objects", [](const Detector& detector) { return namesOf(detector.codebook().objects); })
       .def_property_readonly("settings", [](const Detector& detector) { return settingsDict(detector.settings()); });
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include <sks_detector/error.hpp>
+#include <sks_detector/thresholds.hpp>
 
 #include "core/settings/nearest_name.hpp"
 #include "core/settings/number_format.hpp"
@@ -114,16 +115,17 @@ std::vector<sks::Detection> detectWanted(const sks::Detector& detector, const sk
                                          const DetectionQuery& query, const Eigen::Isometry3d& T_cloud_region,
                                          sks::Inspection* inspection) {
   const sks::Settings& settings = detector.settings();
-  const double threshold = query.threshold.value_or(settings.detection.threshold);
+  const sks::Thresholds thresholds =
+      query.threshold ? sks::Thresholds(*query.threshold) : sks::Thresholds(settings.detection);
   std::vector<sks::Detection> found;
   if (query.region) {
     const CropBox box = cropOf(*query.region, T_cloud_region, detector.codebook(), settings.sanitize);
     if (isFree(box, cloud, settings.sanitize.min_points)) return {};
     sks::Settings cropping = settings;
     setCrop(box, cropping.sanitize);
-    found = detector.withSettings(cropping).detect(cloud, inspection).above(threshold);
+    found = detector.withSettings(cropping).detect(cloud, inspection).above(thresholds);
   } else {
-    found = detector.detect(cloud, inspection).above(threshold);
+    found = detector.detect(cloud, inspection).above(thresholds);
   }
   const Eigen::Isometry3d T_region_cloud = T_cloud_region.inverse();
   const auto unwanted = [&](const sks::Detection& detection) {

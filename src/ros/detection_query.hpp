@@ -25,7 +25,7 @@ struct Region {
 struct DetectionQuery {
   std::vector<std::string> objects;  ///< names; empty: all
   std::optional<Region> region;
-  std::optional<double> threshold;  ///< lowest score; none: the detector's
+  std::optional<double> threshold;  ///< lowest score of all objects; none: the detector's
 };
 
 /// @throws sks::Error(bad_usage) naming the field, its value and unit where a number makes no sense

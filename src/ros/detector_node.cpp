@@ -52,6 +52,7 @@ DetectorNode::DetectorNode(const ros::NodeHandle& private_handle, const Paramete
       input_(private_handle),
       frame_detector_(slot_, transforms_),
       output_(control_handle_, [this] { updateWanted(); }),
+      models_(control_handle_, slot_),
       diagnostics_(control_handle_, {board_, input_, statistics_, tracking_},
                    [this] { return nodeSettings().silence_warning; }),
       control_spinner_(1, &control_queue_) {
@@ -66,6 +67,7 @@ DetectorNode::DetectorNode(const ros::NodeHandle& private_handle, const Paramete
     errors_.clear(cloud_error);  // that there was none, for example
     board_.setUsable(true);
     advertiseObjects();
+    models_.codebookChanged();
   });
   services_ = std::make_unique<Services>(control_handle_, slot_, board_, nodeSettings(), nodeAccess());
   listenToTransforms();

@@ -19,6 +19,7 @@
 #include "ros/error_report.hpp"
 #include "ros/frame_detector.hpp"
 #include "ros/frame_statistics.hpp"
+#include "ros/model_output.hpp"
 #include "ros/object_tracking.hpp"
 #include "ros/parameters.hpp"
 #include "ros/reconfigure.hpp"
@@ -85,6 +86,7 @@ private:
   ObjectTracking tracking_;
   std::mutex wanting_;
   DetectionOutput output_;
+  ModelOutput models_;
   Diagnostics diagnostics_;
   std::unique_ptr<Reconfigure> reconfigure_;
   std::unique_ptr<Services> services_;

@@ -3,9 +3,22 @@
 
 #include <cstdio>
 
+#include <ros/console.h>
+
 #include <sks_detector/codebook_file.hpp>
+#include <sks_detector/thresholds.hpp>
 
 namespace sks_detector {
+namespace {
+
+void warnOfThresholds(const sks::Detector& detector) {
+  for (const std::string& warning :
+       sks::thresholdWarnings(detector.settings().detection, detector.codebook().objects)) {
+    ROS_WARN_STREAM(warning);
+  }
+}
+
+}  // namespace
 
 sks::Settings withBound(sks::Settings settings, const sks::Settings& bound) {
   for (const sks::SettingInfo& info : sks::settingInfos()) {
@@ -58,6 +71,7 @@ void DetectorSlot::setCodebook(const std::shared_ptr<const sks::Codebook>& codeb
   const std::lock_guard<std::mutex> lock(mutex_);
   if (built) {  // settings may have changed meanwhile
     built = std::make_shared<sks::Detector>(built->withSettings(withBound(wanted_, codebook->settings)));
+    warnOfThresholds(*built);
   }
   detector_.swap(built);  // the old one dies after the lock
   codebook_file_ = codebook ? file : "";
@@ -76,6 +90,7 @@ void DetectorSlot::setSettings(const sks::Settings& settings) {
     return;
   }
   detector_ = std::make_shared<sks::Detector>(detector_->withSettings(settings));
+  warnOfThresholds(*detector_);
   wanted_ = withBound(settings, wanted_);
 }
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include <sks_detector/error.hpp>
+#include <sks_detector/thresholds.hpp>
 
 #include "drawing/palette.hpp"
 #include "drawing/picture.hpp"
@@ -159,9 +160,10 @@ FrameResult FrameDetector::follow(const sensor_msgs::PointCloud2& message, const
   FrameResult result = emptyAnswer(message.header, settings, T_cloud_sensor, used->codebook());
   result.warning = std::move(warning);
   const std::vector<std::string>& objects = used->codebook().objects;
+  const sks::Thresholds thresholds(used->settings().detection);
   std::vector<sks::Detection> shown;
   for (const sks::TrackedObject& object : tracked) {
-    if (object.detection.score < used->settings().detection.threshold) continue;
+    if (!thresholds.passes(object.detection)) continue;
     shown.push_back(object.detection);
     sks::Detection detection = object.detection;
     transform(result.T_target_cloud, detection);

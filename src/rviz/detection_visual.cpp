@@ -15,6 +15,7 @@
 #include "core/settings/number_format.hpp"
 #include "core/settings/shown_text.hpp"
 #include "rviz/detection_selection.hpp"
+#include "rviz/model_visual.hpp"
 
 namespace sks_detector {
 namespace {
@@ -51,13 +52,15 @@ DetectionVisual::DetectionVisual(rviz::DisplayContext& context, Ogre::SceneNode&
       edges_(std::make_unique<rviz::BillboardLine>(&scene_, node_)),
       faces_(std::make_unique<rviz::Shape>(rviz::Shape::Cube, &scene_, node_)),
       axes_(std::make_unique<rviz::Axes>(&scene_, node_)),
-      selection_(std::make_unique<DetectionSelection>(context)) {
+      selection_(std::make_unique<DetectionSelection>(context)),
+      model_(std::make_unique<ModelVisual>(scene_, *node_)) {
   edges_->setNumLines(edge_count);
   edges_->setMaxPointsPerLine(2);
   selection_->addTrackedObjects(faces_->getRootNode());
 }
 
 DetectionVisual::~DetectionVisual() {
+  model_.reset();
   selection_.reset();  // while what it watches is there
   for (Ogre::SceneNode* node : {shadow_node_, label_node_}) node->detachAllObjects();
   label_.reset();
@@ -68,28 +71,22 @@ DetectionVisual::~DetectionVisual() {
   for (Ogre::SceneNode* node : {shadow_node_, label_node_, node_}) scene_.destroySceneNode(node);
 }
 
-void DetectionVisual::show(const ShownDetection& shown, const Detection& message, const Ogre::ColourValue& color,
+void DetectionVisual::show(const ShownDetection& shown, const Detection& message,
+                           const std::shared_ptr<const ObjectCloud>& model, const Ogre::ColourValue& color,
                            const DetectionStyle& style) {
   T_scene_box_ = shown.detection.T_scene_box;
   box_size_ = shown.detection.box_size;
-  const Ogre::Vector3 center = vectorOf(T_scene_box_.translation());
-  const Ogre::Quaternion turn = turnOf(T_scene_box_.linear());
-  Ogre::Vector3 size = vectorOf(box_size_);
-  const float longest = std::max({size.x, size.y, size.z});
-  edges_->setPosition(center);
-  edges_->setOrientation(turn);
-  drawEdges(size, color);
-
-  size.makeCeil(Ogre::Vector3(thinnest_face));
-  faces_->setPosition(center);
-  faces_->setOrientation(turn);
-  faces_->setScale(size);
-  faces_->setColor(color.r, color.g, color.b, style.alpha);
+  drawBox(!model, color, model ? 0 : style.alpha);
 
   const Eigen::Isometry3d& T_scene_model = shown.detection.T_scene_model;
-  axes_->setPosition(style.axes == DetectionStyle::Axes::model ? vectorOf(T_scene_model.translation()) : center);
-  axes_->setOrientation(turnOf(T_scene_model.linear()));
-  const float length = std::max(axis_length * longest, thinnest_face);
+  const Ogre::Vector3 model_origin = vectorOf(T_scene_model.translation());
+  const Ogre::Quaternion model_turn = turnOf(T_scene_model.linear());
+  model_->show(model, color, style.own_colors);
+  model_->setPose(model_origin, model_turn);
+
+  axes_->setPosition(style.axes == DetectionStyle::Axes::model ? model_origin : vectorOf(T_scene_box_.translation()));
+  axes_->setOrientation(model_turn);
+  const float length = std::max(axis_length * float(box_size_.maxCoeff()), thinnest_face);
   axes_->set(length, std::max(thinnest_axis, axis_radius * length));
   axes_->getSceneNode()->setVisible(style.axes != DetectionStyle::Axes::none);
 
@@ -116,8 +113,22 @@ void DetectionVisual::drawLabel(const std::string& text, const Ogre::ColourValue
   }
 }
 
-void DetectionVisual::drawEdges(const Ogre::Vector3& size, const Ogre::ColourValue& color) {
+void DetectionVisual::drawBox(bool with_edges, const Ogre::ColourValue& color, float alpha) {
+  const Ogre::Vector3 center = vectorOf(T_scene_box_.translation());
+  const Ogre::Quaternion turn = turnOf(T_scene_box_.linear());
+  Ogre::Vector3 size = vectorOf(box_size_);
   edges_->clear();
+  edges_->setPosition(center);
+  edges_->setOrientation(turn);
+  if (with_edges) drawEdges(size, color);
+  size.makeCeil(Ogre::Vector3(thinnest_face));
+  faces_->setPosition(center);
+  faces_->setOrientation(turn);
+  faces_->setScale(size);
+  faces_->setColor(color.r, color.g, color.b, alpha);
+}
+
+void DetectionVisual::drawEdges(const Ogre::Vector3& size, const Ogre::ColourValue& color) {
   edges_->setLineWidth(std::max(thinnest_edge, edge_width * std::max({size.x, size.y, size.z})));
   bool first = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {  // the four edges along each axis

@@ -21,15 +21,18 @@ class Shape;
 namespace sks_detector {
 
 class DetectionSelection;
+class ModelVisual;
+struct ObjectCloud;
 
 /// How detections are drawn.
 struct DetectionStyle {
   enum class Axes { none, box, model };
 
-  float alpha = 0;         ///< of the faces of boxes; 0: only their edges
-  Axes axes = Axes::box;   ///< where the axes of the model are drawn
-  bool labels = true;      ///< name and score above the box
-  float label_height = 0;  ///< of the picture's height
+  float alpha = 0;          ///< of the faces of boxes; 0: only their edges
+  Axes axes = Axes::box;    ///< where the axes of the model are drawn
+  bool labels = true;       ///< name and score above the box
+  float label_height = 0;   ///< of the picture's height
+  bool own_colors = false;  ///< of models, where they have some
 };
 
 /// The eye that labels turn to, in the frame of the detections.
@@ -40,7 +43,7 @@ struct LabelView {
   float height = 0;  ///< of what is seen [m]: at 1 m from the eye, or anywhere where the view is orthographic
 };
 
-/// The box, axes and label of one detection; its Ogre objects go with it. To be used in the thread that draws.
+/// The box or model, axes and label of one detection; its Ogre objects go with it. To be used in the thread that draws.
 class DetectionVisual {
 public:
   /// @param node of the frame of the detections
@@ -50,13 +53,16 @@ public:
   DetectionVisual& operator=(const DetectionVisual&) = delete;
 
   /// @param message the detection as it came, for the Selection panel
-  void show(const ShownDetection& shown, const Detection& message, const Ogre::ColourValue& color,
-            const DetectionStyle& style);
+  /// @param model to be shown in place of the box; null: the box
+  void show(const ShownDetection& shown, const Detection& message, const std::shared_ptr<const ObjectCloud>& model,
+            const Ogre::ColourValue& color, const DetectionStyle& style);
   /// Puts the label above the box as the eye sees it, in front of what stands in the box, in a size that can be read.
   void turnLabel(const LabelView& view, const DetectionStyle& style);
 
 private:
   void drawLabel(const std::string& text, const Ogre::ColourValue& color, bool visible);
+  /// The faces are there even where they cannot be seen: they are what is selected.
+  void drawBox(bool with_edges, const Ogre::ColourValue& color, float alpha);
   void drawEdges(const Ogre::Vector3& size, const Ogre::ColourValue& color);
 
   Ogre::SceneManager& scene_;
@@ -69,6 +75,7 @@ private:
   std::unique_ptr<rviz::MovableText> label_;
   std::unique_ptr<rviz::MovableText> shadow_;  // of the label, which can be read before any background
   std::unique_ptr<DetectionSelection> selection_;
+  std::unique_ptr<ModelVisual> model_;
   Eigen::Isometry3d T_scene_box_ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d box_size_ = Eigen::Vector3d::Zero();
 };

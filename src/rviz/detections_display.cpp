@@ -14,6 +14,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "core/settings/number_format.hpp"
+#include "core/settings/shown_text.hpp"
 
 namespace sks_detector {
 namespace {
@@ -21,9 +22,10 @@ namespace {
 using rviz::StatusProperty;
 
 constexpr const char* default_topic = "/detector/detections";
-constexpr int by_object = 0, by_score = 1;  // the options of "Color By"
-constexpr double transform_patience = 0.5;  // [s] for which a transform may be late without a word
-constexpr int most_at_once = 10000;         // boxes; more would stop the window for seconds
+constexpr int as_box = 0, as_model = 1;                   // the options of "Shape"
+constexpr int by_object = 0, by_score = 1, by_model = 2;  // the options of "Color By"
+constexpr double transform_patience = 0.5;                // [s] for which a transform may be late without a word
+constexpr int most_at_once = 10000;                       // boxes; more would stop the window for seconds
 
 }  // namespace
 
@@ -32,12 +34,20 @@ DetectionsDisplay::DetectionsDisplay() {
   threshold_ = new rviz::FloatProperty("Threshold", 0, "Lowest score of what is shown, 0 to 1.", this, changed);
   threshold_->setMin(0);
   threshold_->setMax(1);
+  shape_ = new rviz::EnumProperty("Shape", "Box",
+                                  "Box, or Model: the surface that was trained, as the node's ~models tells it; where "
+                                  "it is not known, the box.",
+                                  this, SLOT(shapeChanged()));
+  shape_->addOption("Box", as_box);
+  shape_->addOption("Model", as_model);
   color_ = new rviz::EnumProperty("Color By", "Object",
                                   "Object: the colour that the object has in markers and pictures too; "
-                                  "Score: from red (0) to green (1).",
+                                  "Score: from red (0) to green (1); Model: models have the colours that were trained, "
+                                  "all else that of its object.",
                                   this, changed);
   color_->addOption("Object", by_object);
   color_->addOption("Score", by_score);
+  color_->addOption("Model", by_model);
   alpha_ = new rviz::FloatProperty("Alpha", 0.15F, "Of the faces of the boxes, 0 to 1; 0: only edges.", this, changed);
   alpha_->setMin(0);
   alpha_->setMax(1);
@@ -81,18 +91,36 @@ void DetectionsDisplay::subscribe() {
   if (!isEnabled()) return;
   try {
     const std::string topic = update_nh_.resolveName(topic_property_->getTopicStd());
-    status_topic_ = ros::names::append(ros::names::parentNamespace(topic), "status");
+    const std::string node = ros::names::parentNamespace(topic);
+    models_topic_ = ros::names::append(node, "models");
+    status_topic_ = ros::names::append(node, "status");
     status_ = update_nh_.subscribe(status_topic_, 1, &DetectionsDisplay::receiveStatus, this);
   } catch (const ros::Exception&) {  // the name of the topic is wrong, as its status says
     status_topic_.clear();
+    models_topic_.clear();
   }
+  listenToModels();
   tellColors();
 }
 
 void DetectionsDisplay::unsubscribe() {
   MFDClass::unsubscribe();
   status_.shutdown();
+  models_.shutdown();
   colors_.forget();
+  clouds_.forget();
+}
+
+void DetectionsDisplay::listenToModels() {
+  const bool wanted = isEnabled() && shape_->getOptionInt() == as_model && !models_topic_.empty();
+  if (wanted && !models_) {
+    models_ = update_nh_.subscribe(models_topic_, 1, &DetectionsDisplay::receiveModels, this);
+    tellModels(nullptr);
+  } else if (!wanted) {
+    models_.shutdown();
+    clouds_.forget();
+    deleteStatus("Models");
+  }
 }
 
 void DetectionsDisplay::noteArrival(const DetectionArray::ConstPtr& message) {
@@ -123,11 +151,23 @@ void DetectionsDisplay::receiveStatus(const Status::ConstPtr& status) {
   changed_ = true;
 }
 
+void DetectionsDisplay::receiveModels(const ObjectModels::ConstPtr& models) {
+  clouds_.set(*models);
+  tellModels(nullptr);
+  changed_ = true;
+}
+
 void DetectionsDisplay::styleChanged() {
   style_.alpha = alpha_->getFloat();
   style_.axes = DetectionStyle::Axes(axes_->getOptionInt());
   style_.labels = labels_->getBool();
   style_.label_height = label_size_->getFloat();
+  style_.own_colors = color_->getOptionInt() == by_model;
+  changed_ = true;
+}
+
+void DetectionsDisplay::shapeChanged() {
+  listenToModels();
   changed_ = true;
 }
 
@@ -161,6 +201,8 @@ bool DetectionsDisplay::draw() {
   scene_node_->setOrientation(orientation);
 
   const ShownDetections chosen = chooseShown(*array_, double(threshold_->getFloat()), std::size_t(most_->getInt()));
+  const bool models = shape_->getOptionInt() == as_model;
+  const Detection* missing = nullptr;
   std::map<std::string, std::unique_ptr<DetectionVisual>> visuals;
   for (const ShownDetection& shown : chosen.shown) {
     std::unique_ptr<DetectionVisual>& visual = visuals[shown.key];
@@ -168,12 +210,14 @@ bool DetectionsDisplay::draw() {
     if (!visual && old != visuals_.end()) visual = std::move(old->second);
     if (!visual) visual = std::make_unique<DetectionVisual>(*context_, *scene_node_);
     const Detection& message = array_->detections[shown.index];
-    const bool score = color_->getOptionInt() == by_score;
-    visual->show(shown, message, score ? scoreColor(double(message.score)) : colors_.color(message.object), style_);
+    const std::shared_ptr<const ObjectCloud> model = models ? clouds_.find(message) : nullptr;
+    if (models && !model && missing == nullptr) missing = &message;
+    visual->show(shown, message, model, colorOf(message), style_);
   }
   visuals_ = std::move(visuals);
   tellChoice(chosen);
   tellColors();
+  if (models) tellModels(missing);
   context_->queueRender();
   return true;
 }
@@ -190,6 +234,26 @@ void DetectionsDisplay::tellChoice(const ShownDetections& chosen) {
   if (!chosen.problem.empty()) text += "; " + chosen.problem;
   const bool fine = chosen.too_many == 0 && chosen.problem.empty();
   setStatusStd(fine ? StatusProperty::Ok : StatusProperty::Warn, "Detections", text);
+}
+
+Ogre::ColourValue DetectionsDisplay::colorOf(const Detection& detection) {
+  const bool by_its_score = color_->getOptionInt() == by_score;
+  return by_its_score ? scoreColor(double(detection.score)) : colors_.color(detection.object);
+}
+
+void DetectionsDisplay::tellModels(const Detection* missing) {
+  if (!clouds_.known()) {
+    setStatusStd(StatusProperty::Warn, "Models", "boxes are drawn, as nothing came on " + models_topic_);
+    return;
+  }
+  std::string text = sks::formatted("%zu of %s", clouds_.size(), sks::shown(clouds_.codebook()).c_str());
+  if (missing != nullptr) {
+    text += "; none of '" + sks::shown(missing->object) + "' in the frame '" + sks::shown(missing->view) +
+            "': its box is drawn";
+  }
+  if (!clouds_.problem().empty()) text += "; " + clouds_.problem();
+  const bool fine = missing == nullptr && clouds_.problem().empty();
+  setStatusStd(fine ? StatusProperty::Ok : StatusProperty::Warn, "Models", text);
 }
 
 void DetectionsDisplay::tellColors() {

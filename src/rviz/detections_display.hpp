@@ -6,11 +6,13 @@
 #include <string>
 
 #include <sks_detector/DetectionArray.h>
+#include <sks_detector/ObjectModels.h>
 #include <sks_detector/Status.h>
 #ifndef Q_MOC_RUN
 #include <rviz/message_filter_display.h>
 
 #include "rviz/detection_visual.hpp"
+#include "rviz/object_clouds.hpp"
 #include "rviz/object_colors.hpp"
 #endif
 
@@ -23,8 +25,8 @@ class IntProperty;
 
 namespace sks_detector {
 
-/// rviz display of a sks_detector/DetectionArray: boxes, labels and axes, which can be selected. Of arrays that come
-/// faster than rviz draws only the newest is drawn. What cannot be drawn is told in the display's status.
+/// rviz display of a sks_detector/DetectionArray: boxes or models, labels and axes, which can be selected. Of arrays
+/// that come faster than rviz draws only the newest is drawn. What cannot be drawn is told in the display's status.
 class DetectionsDisplay : public rviz::MessageFilterDisplay<DetectionArray> {
   Q_OBJECT
 public:
@@ -41,6 +43,7 @@ protected:
 
 private Q_SLOTS:
   void styleChanged();
+  void shapeChanged();
 
 private:
   void processMessage(const DetectionArray::ConstPtr& message) override;
@@ -48,13 +51,20 @@ private:
   void noteArrival(const DetectionArray::ConstPtr& message);
   void tellWaiting();
   void receiveStatus(const Status::ConstPtr& status);
+  void receiveModels(const ObjectModels::ConstPtr& models);
+  /// Listens to the node's models while they are wanted: they may be large.
+  void listenToModels();
   /// Makes the Ogre objects those of the current array; false where its frame cannot be transformed.
   bool draw();
+  Ogre::ColourValue colorOf(const Detection& detection);
   void tellColors();
+  /// @param missing a detection without a model; null: none
+  void tellModels(const Detection* missing);
   void tellChoice(const ShownDetections& chosen);
   void turnLabels();
 
   rviz::FloatProperty* threshold_;
+  rviz::EnumProperty* shape_;
   rviz::EnumProperty* color_;
   rviz::FloatProperty* alpha_;
   rviz::EnumProperty* axes_;
@@ -73,6 +83,9 @@ private:
   std::map<std::string, std::unique_ptr<DetectionVisual>> visuals_;
   ros::Subscriber status_;
   std::string status_topic_;
+  ros::Subscriber models_;
+  std::string models_topic_;
+  ObjectClouds clouds_;
 };
 
 }  // namespace sks_detector

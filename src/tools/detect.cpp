@@ -7,6 +7,7 @@
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/detector.hpp>
 #include <sks_detector/error.hpp>
+#include <sks_detector/thresholds.hpp>
 
 #include "core/settings/value_text.hpp"
 #include "drawing/palette.hpp"
@@ -74,6 +75,7 @@ void run(const DetectOptions& options) {
   Settings settings = codebook->settings;
   options.settings.apply(settings);
   const Detector detector(codebook, settings);
+  for (const std::string& warning : thresholdWarnings(settings.detection, codebook->objects)) warn(warning);
   options.json.check();
   const std::size_t count = options.clouds.size();
   for (std::size_t i = 0; i < count && !options.image.empty(); ++i) checkPicturePath(imagePath(options, i));
@@ -87,7 +89,7 @@ void run(const DetectOptions& options) {
     const Cloud cloud = readCloud(path, options.scale);
     const DetectionResult result = detect(detector, path, cloud);
     report(progress, {"detecting", path, i + 1, count});
-    const std::vector<Detection> detections = result.above(settings.detection.threshold);
+    const std::vector<Detection> detections = result.above(Thresholds(settings.detection));
     nlohmann::json list = nlohmann::json::array();
     for (const Detection& detection : detections) list.push_back(detectionJson(detection));
     results.push_back({{"cloud", path},
@@ -100,6 +102,7 @@ void run(const DetectOptions& options) {
   }
   options.json.write({{"codebook", {{"name", codebook->name}, {"checksum", checksumText(*codebook)}}},
                       {"threshold", settings.detection.threshold},
+                      {"thresholds", Thresholds(settings.detection).ofSingleObjects()},
                       {"clouds", results}});
 }
 

@@ -5,6 +5,7 @@
 #include <sks_detector/cloud_io.hpp>
 #include <sks_detector/error.hpp>
 #include <sks_detector/settings_file.hpp>
+#include <sks_detector/thresholds.hpp>
 
 #include "evaluation/evaluation.hpp"
 #include "evaluation/registered_truth.hpp"
@@ -75,6 +76,7 @@ void run(EvaluateOptions& options) {
   for (const std::string& object : untrainedObjects(data_set, codebook->objects)) {
     warn("object '" + object + "' of the ground truth was never trained: it counts as missed");
   }
+  for (const std::string& warning : thresholdWarnings(settings.detection, codebook->objects)) warn(warning);
   const DetectFunction detect = options.method.detectFunction(codebook, settings);
   std::optional<Journal> journal;
   if (options.resume && leads()) {

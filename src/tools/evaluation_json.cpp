@@ -59,11 +59,11 @@ json scoreJson(const Score& score) {
   return result;
 }
 
-json groundTruthJson(const SceneResult& result, std::size_t index, double threshold) {
+json groundTruthJson(const SceneResult& result, std::size_t index, const Evaluation& evaluation) {
   const GroundTruth& truth = result.scene.objects[index];
   bool detected = false;
   for (const MatchedDetection& matched : result.detections) {
-    detected = detected || (matched.ground_truth == index && matched.detection.score >= threshold);
+    detected = detected || (matched.ground_truth == index && counts(evaluation, matched.detection));
   }
   return {{"object", truth.object},
           {"position", vectorJson(truth.position)},
@@ -85,10 +85,10 @@ json matchedJson(const MatchedDetection& matched) {
   return result;
 }
 
-json sceneJson(const SceneResult& scene, double threshold) {
+json sceneJson(const SceneResult& scene, const Evaluation& evaluation) {
   json result{{"name", scene.scene.name}, {"ground_truth", json::array()}, {"detections", json::array()}};
   for (std::size_t i = 0; i < scene.scene.objects.size(); ++i) {
-    result["ground_truth"].push_back(groundTruthJson(scene, i, threshold));
+    result["ground_truth"].push_back(groundTruthJson(scene, i, evaluation));
   }
   for (const MatchedDetection& matched : scene.detections) result["detections"].push_back(matchedJson(matched));
   return result;
@@ -116,6 +116,7 @@ json commonJson(const Evaluation& evaluation, const std::vector<std::string>& ob
   result["method"] = evaluation.method;
   result["scenes"] = evaluation.scenes.size();
   result["threshold"] = evaluation.threshold;
+  result["thresholds"] = evaluation.thresholds;
   result["max_distance"] = evaluation.max_distance;
   for (const auto& [stage, time] : evaluation.times) {
     result["time_ms"][stage] = {{"mean", time.mean}, {"p50", time.p50}, {"p95", time.p95}};
@@ -132,7 +133,7 @@ json commonJson(const Evaluation& evaluation, const std::vector<std::string>& ob
   if (evaluation.bop) addBop(*evaluation.bop, result);
   result["per_scene"] = json::array();
   for (const SceneResult& scene : evaluation.scenes) {
-    result["per_scene"].push_back(sceneJson(scene, evaluation.threshold));
+    result["per_scene"].push_back(sceneJson(scene, evaluation));
   }
   return result;
 }

@@ -44,7 +44,7 @@ void writePlots(const std::string& folder, const SceneClouds& clouds, const Eval
     report(progress, {"drawing", result.scene.name, i, count});
     const Cloud cloud = clouds(i);
     if (cloud.size() == 0) continue;
-    saveScenePicture((pictures / pictureName(result.scene.name, i)).string(), cloud, result, evaluation.threshold);
+    saveScenePicture((pictures / pictureName(result.scene.name, i)).string(), cloud, result, evaluation);
   }
   report(progress, {"drawing", "", count, count});
 }

@@ -16,11 +16,12 @@ Rgb colorOf(Outcome outcome) {
 
 }  // namespace
 
-void saveScenePicture(const std::string& path, const Cloud& cloud, const SceneResult& result, double threshold) {
+void saveScenePicture(const std::string& path, const Cloud& cloud, const SceneResult& result,
+                      const Evaluation& evaluation) {
   Picture picture(cloud);
   std::vector<bool> found(result.scene.objects.size(), false);
   for (auto matched = result.detections.rbegin(); matched != result.detections.rend(); ++matched) {  // the best on top
-    if (matched->detection.score < threshold) continue;
+    if (!counts(evaluation, matched->detection)) continue;
     if (matched->ground_truth) found[*matched->ground_truth] = true;
     picture.drawDetection(matched->detection, colorOf(matched->outcome));
   }

@@ -5,7 +5,7 @@ namespace sks::tools {
 
 nlohmann::json settingJson(const Settings& settings, const SettingInfo& info) {
   const std::string text = getSetting(settings, info.key);
-  return info.type == "choice" ? nlohmann::json(text) : nlohmann::json::parse(text);
+  return info.type == "choice" || info.type == "string" ? nlohmann::json(text) : nlohmann::json::parse(text);
 }
 
 nlohmann::json settingsJson(const Settings& settings) {

@@ -74,6 +74,20 @@ def test_settings_and_threshold(simulated, codebook):
     assert flat.settings["threads"] == 1
 
 
+def test_objects_may_have_thresholds_of_their_own(simulated, codebook):
+    cloud = sks_detector.read_cloud(simulated.scenes[0])
+    usual = sks_detector.Detector(codebook).detect(cloud)
+    name = usual[0].object
+    without = sks_detector.Detector(codebook, settings={"detection.threshold": 0, "detection.thresholds": name + "=1"})
+    every = without.detect(cloud, threshold=0)
+    same(without.detect(cloud), [d for d in every if d.object != name or d.score >= 1])
+    assert any(d.object == name and d.score < 1 for d in every)
+    with pytest.warns(UserWarning, match="'nothing' is not in the codebook"):
+        sks_detector.Detector(codebook, settings={"detection.thresholds": "nothing=0.5"})
+    with pytest.raises(sks_detector.Error, match="object=score"):
+        sks_detector.Detector(codebook, settings={"detection.thresholds": name})
+
+
 def test_threads_share_a_detector(simulated, codebook):
     detector = sks_detector.Detector(codebook, settings={"threads": 1})
     clouds = [sks_detector.read_cloud(scene) for scene in simulated.scenes]

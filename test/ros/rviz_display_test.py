@@ -15,7 +15,7 @@ import yaml
 
 import screen
 import support
-from sks_detector.msg import Detection, DetectionArray, Status
+from sks_detector.msg import Detection, DetectionArray, ObjectModel, ObjectModels, Status
 
 OBJECTS = ["cup", "box", "can"]  # of the codebook
 PALETTE = {"cup": (0xf0, 0x78, 0x00), "box": (0x18, 0xa8, 0xf0), "can": (0x00, 0xc0, 0x08)}
@@ -88,6 +88,12 @@ class RvizDisplayTest(unittest.TestCase):
     def like(self, color):
         return self.screen.like(np.array(color) / 255)
 
+    def shade_of(self, color):
+        """Where the screen has a colour, or a darker one of its kind, as on a sphere."""
+        picture, color = self.screen.picture(), np.array(color)
+        level = picture[..., np.argmax(color)] / color.max()
+        return (level > 0.3) & (level < 1.05) & (np.abs(picture - level[..., None] * color).max(2) <= 12)
+
     def publish(self, *detections, frame="map"):
         array = DetectionArray(detections=list(detections))
         array.header.frame_id, array.header.stamp = frame, rospy.Time.now()
@@ -129,6 +135,32 @@ class RvizDisplayTest(unittest.TestCase):
         support.wait_for(lambda: np.allclose(extent(self.like(PALETTE["can"])), self.expected_extent(can), atol=5),
                          "the box at its new place")
         self.expect([])
+
+    def test_models_are_drawn_where_they_are_known(self):
+        """Flat models across the view, off their boxes: 0.2 m wide and 0.1 m high, and a line."""
+        row = np.arange(-0.1, 0.1001, 0.005)
+        sheet = np.array([[0, y, z + 0.3] for y in row for z in row[10:31]])
+        own = np.tile((200, 0, 200), (len(sheet), 1))
+        models = rospy.Publisher("/detector/models", ObjectModels, queue_size=1, latch=True)
+        self.addCleanup(models.unregister)
+        models.publish(ObjectModels(models=[
+            ObjectModel(object="can", view="can.obj", spacing=0.005, points=support.cloud_message(sheet, colors=own)),
+            ObjectModel(object="cup", view="cup.obj", spacing=0.005, points=support.cloud_message(sheet * (1, 1, 0)))]))
+        self.start(Alpha=0, Axes="None", Labels=False, Shape="Model", **{"Color By": "Model"})
+        can, cup, box = detection("can"), detection("cup", place=(0, 0.4, -0.3)), detection("box", place=(0, -0.5, 0))
+        can.view, cup.view, box.view = "can.obj", "cup.obj", "box.obj"
+        cup.pose.pose.orientation.x = cup.pose.pose.orientation.w = np.sqrt(0.5)  # about x: wide becomes high
+
+        def drawn():
+            self.publish(can, cup, box)
+            return (self.shade_of((200, 0, 200)).sum() > 1000 and self.shade_of(PALETTE["cup"]).sum() > 50 and
+                    self.like(PALETTE["box"]).sum() > 50)
+        support.wait_for(drawn, "the models and the box that has none")
+        self.view = extent(self.like(BACKGROUND), 200)
+        self.assertEqual(self.like(PALETTE["can"]).sum(), 0, "its edges are drawn")
+        for color, place, size in (((200, 0, 200), (0, 0, 0.3), (0, 0.2, 0.1)), (PALETTE["cup"], (0, 0.4, -0.3), (0, 0, 0.2))):
+            np.testing.assert_allclose(extent(self.shade_of(color)), self.expected_extent(detection(place=place, size=size)),
+                                       atol=6)
 
     def test_goes_on_after_arrays_that_cannot_be_drawn(self):
         self.start()

@@ -19,7 +19,7 @@ class RvizPartsTest(unittest.TestCase):
                              env=on_screen.environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                              universal_newlines=True, timeout=240)
         self.assertEqual(run.returncode, 0, run.stdout)
-        self.assertIn("[  PASSED  ] 7 tests", run.stdout)
+        self.assertIn("[  PASSED  ] 9 tests", run.stdout)
 
 
 if __name__ == "__main__":

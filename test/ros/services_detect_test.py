@@ -4,9 +4,10 @@
 import numpy as np
 import rospy
 import rostest
-from dynamic_reconfigure.msg import Config, DoubleParameter
+from dynamic_reconfigure.msg import Config, DoubleParameter, StrParameter
 from dynamic_reconfigure.srv import Reconfigure
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion, TransformStamped, Vector3
+from rosgraph_msgs.msg import Log
 from tf2_msgs.msg import TFMessage
 
 import services_support
@@ -43,6 +44,10 @@ class DetectServiceTest(services_support.ServicesTest):
         wanted = DoubleParameter(name, value)
         reply = rospy.ServiceProxy("/detector/set_parameters", Reconfigure)(Config(doubles=[wanted]))
         self.assertIn(wanted, reply.config.doubles)
+
+    def set_text(self, name, value, in_force=None):
+        reply = rospy.ServiceProxy("/detector/set_parameters", Reconfigure)(Config(strs=[StrParameter(name, value)]))
+        self.assertIn(StrParameter(name, value if in_force is None else in_force), reply.config.strs)
 
     def test_tells_only_of_the_objects_asked_for(self):
         self.assertEqual(self.names(objects=["round"]), ["round"])
@@ -111,6 +116,25 @@ class DetectServiceTest(services_support.ServicesTest):
         at_round = region(self.round, (0.05, 0.05, 0.05))
         self.assertEqual(set(self.names(threshold=1e-6, objects=["round"], **at_round)), {"round"})
         self.assertEqual(self.names(threshold=1e-6, objects=["thing"], **region(self.round, (1e-3, 1e-3, 1e-3))), [])
+
+    def test_objects_may_have_thresholds_of_their_own(self):
+        self.assertEqual(self.names(), ["round", "thing"])
+        self.addCleanup(self.set_text, "detection.thresholds", "")
+        self.addCleanup(self.set_parameter, "detection.threshold", 0.5)
+        self.set_parameter("detection.threshold", 1)
+        self.assertEqual(self.names(), [])
+        self.set_text("detection.thresholds", "round=0.5")
+        self.assertEqual(self.names(), ["round"])
+        self.assertEqual(rospy.get_param("/detector/detection/thresholds"), "round=0.5")
+        self.assertEqual(self.names(threshold=0.5), ["round", "thing"])  # of a request: for all objects
+        log = support.Recorder("/rosout", Log)
+        self.addCleanup(log.close)
+        support.wait_for(log.connections, "the node's log")
+        self.set_text("detection.thresholds", "rond=0.5")  # its codebook may be loaded later
+        log.wait_for(lambda m: "'rond' is not in the codebook; did you mean 'round'?" in m.msg, "a warning")
+        self.assertEqual(self.names(), [])
+        for wrong in ("round", "round=2", "round=0.5,round=0.6"):
+            self.set_text("detection.thresholds", wrong, in_force="rond=0.5")
 
     def test_refuses_numbers_that_make_no_sense(self):
         for threshold in (-0.1, 1.1, float("nan")):

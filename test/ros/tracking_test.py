@@ -99,6 +99,14 @@ class TrackingTest(unittest.TestCase):
         self.client.update_configuration({"tracking": True})
         self.assertGreater(min(self.ids(self.followed()).values()), max(after.values()))
 
+    def test_objects_may_have_thresholds_of_their_own(self):
+        self.followed()
+        self.addCleanup(self.client.update_configuration, {"detection.thresholds": ""})
+        self.client.update_configuration({"detection.thresholds": "thing=1"})  # no score is
+        ids = self.ids(support.wait_for(lambda: self.followed(("round",)), "the other object"))
+        for _ in range(5):
+            self.assertEqual(self.ids(self.answer()), ids)
+
     def test_a_fixed_frame_that_comes_and_goes_does_no_harm(self):
         ids = self.ids(self.followed())
         transform = TransformStamped()

@@ -17,8 +17,11 @@
 #include <rviz/selection/selection_manager.h>
 #include <rviz/visualization_manager.h>
 #include <sks_detector/DetectionArray.h>
+#include <sks_detector/ObjectModels.h>
 #include <sks_detector/Status.h>
 #include <QtTest/QTest>
+
+#include "ros/cloud_message.hpp"
 
 namespace sks_detector {
 namespace {
@@ -188,6 +191,54 @@ TEST_F(DetectionsDisplayTest, BoxesGoWhereNothingMoreComes) {
   publish({detectionOf("mug", 0.9F)});
   EXPECT_TRUE(untilStatus("Detections", "None came for 0.5 s")) << statusText("Detections");
   EXPECT_EQ(selected().size(), 0U);
+}
+
+/// The model of an object in the frame "view" of its model: a thick line beside the origin.
+ObjectModel modelOf(const std::string& object) {
+  sks::Cloud cloud;
+  for (float x = -1; x <= 1; x += 0.1F) cloud.points.emplace_back(x, -2, 0.5F * x);
+  ObjectModel model;
+  model.object = object;
+  model.view = "view";
+  model.spacing = 0.3F;
+  model.points = toMessage(cloud, std_msgs::Header());
+  return model;
+}
+
+TEST_F(DetectionsDisplayTest, ModelsAreListenedToWhereTheyAreWanted) {
+  ros::Publisher publisher = handle_.advertise<ObjectModels>("/detector/models", 1, true);
+  ObjectModels models;
+  models.codebook = "toys (1234)";
+  models.models = {modelOf("cup"), modelOf("empty")};
+  models.models[1].points.width = 0;
+  publisher.publish(models);
+  Detection cup = detectionOf("cup", 0.9F), mug = detectionOf("mug", 0.8F);
+  cup.view = mug.view = "view";
+  mug.box_center.position.y = -5;  // beside the cup
+  publish({cup, mug});
+  ASSERT_TRUE(untilStatus("Detections", "2 of 2 shown"));
+  EXPECT_EQ(publisher.getNumSubscribers(), 0U);
+  EXPECT_EQ(status("Models"), nullptr);
+  display_->subProp("Shape")->setValue("Model");
+  EXPECT_TRUE(untilStatus("Models", "1 of toys (1234); none of 'mug' in the frame 'view': its box is drawn"))
+      << statusText("Models");
+  EXPECT_THAT(statusText("Models"), HasSubstr("the model of 'empty' is not used"));
+  EXPECT_THAT(selected(), ::testing::Contains("cup")) << "by its box, which is not seen";
+  models.models = {modelOf("cup"), modelOf("mug")};
+  publisher.publish(models);
+  EXPECT_TRUE(until([&] { return statusText("Models") == "2 of toys (1234)"; })) << statusText("Models");
+  EXPECT_EQ(status("Models")->getLevel(), rviz::StatusProperty::Ok);
+  display_->subProp("Shape")->setValue("Box");
+  EXPECT_TRUE(until([&] { return publisher.getNumSubscribers() == 0 && status("Models") == nullptr; }));
+}
+
+TEST_F(DetectionsDisplayTest, TellsThatThereAreNoModels) {
+  display_->subProp("Shape")->setValue("Model");
+  EXPECT_TRUE(untilStatus("Models", "nothing came on /detector/models")) << statusText("Models");
+  EXPECT_EQ(status("Models")->getLevel(), rviz::StatusProperty::Warn);
+  publish({detectionOf("mug", 0.9F)});
+  ASSERT_TRUE(untilStatus("Detections", "1 of 1 shown"));
+  EXPECT_THAT(selected(), ::testing::ElementsAre("mug"));
 }
 
 TEST_F(DetectionsDisplayTest, ColorsFollowTheCodebookOnceItIsKnown) {

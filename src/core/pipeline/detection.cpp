@@ -4,12 +4,18 @@
 #include <algorithm>
 #include <iterator>
 
+#include <sks_detector/thresholds.hpp>
+
 namespace sks {
 
 std::vector<Detection> DetectionResult::above(double threshold) const {
+  return above(Thresholds(threshold));
+}
+
+std::vector<Detection> DetectionResult::above(const Thresholds& thresholds) const {
   std::vector<Detection> kept;
   std::copy_if(detections.begin(), detections.end(), std::back_inserter(kept),
-               [&](const Detection& d) { return d.score >= threshold; });
+               [&](const Detection& d) { return thresholds.passes(d); });
   return kept;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <sks_detector/error.hpp>
+#include <sks_detector/thresholds.hpp>
 
 #include "core/settings/detector_table.hpp"
 
@@ -56,6 +57,7 @@ void validate(const Settings& settings) {
     throw Error(ErrorCode::bad_usage, std::string(less) + " = " + getSetting(settings, less) + " must be less than " +
                                           greater + " = " + getSetting(settings, greater));
   }
+  Thresholds{settings.detection};  // throws where it cannot be understood
 }
 
 std::vector<std::string> bindingConflicts(const Settings& codebook, const Settings& wanted) {

@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include <sks_detector/thresholds.hpp>
+
 #include "core/tracking/tracker_state.hpp"
 #include "core/verification/color_shift.hpp"
 
@@ -69,7 +71,8 @@ void Tracker::take(const DetectionResult& result, const CloudView& view) {
   if (view.T_fixed_cloud.has_value() != s.fixed && s.followed) return;  // of another reference frame: too late
   if (!s.followed) s.enter(view);
   std::optional<Eigen::Isometry3d> motion;
-  for (const Detection& detection : result.above(s.settings().detection.threshold)) s.takeOne(detection, view, motion);
+  for (const Detection& detection : result.above(Thresholds(s.settings().detection)))
+    s.takeOne(detection, view, motion);
 }
 
 bool Tracker::wantsDetection(double stamp) const {
