@@ -5,6 +5,7 @@ the detector load the codebook and plays the tables again and again."""
 import os
 import subprocess
 import sys
+import time
 
 import roslib.packages
 import rospy
@@ -13,8 +14,9 @@ from sks_detector.srv import LoadCodebook
 
 CODEBOOK = "objects.sks"
 WAIT_FOR_DETECTOR = 120.0  # [s]
-SECONDS_PER_TABLE = 2
+SECONDS_PER_TABLE = 3
 LONGEST_WORK = 1800  # of simulation and of training, on a slow machine [s]
+LONGEST_END = 10.0  # of rosbag play [s]
 
 
 def program(package, name):
@@ -46,6 +48,18 @@ def load(detector):
     rospy.loginfo("the detector looks for %s", ", ".join(reply.objects))
 
 
+def play(bag):
+    player = subprocess.Popen([program("rosbag", "play"), "--clock", "--quiet", "--delay", "1", bag],
+                              stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+    while player.poll() is None and not rospy.is_shutdown():
+        time.sleep(0.1)
+    if player.poll() is None:
+        player.terminate()
+        player.wait(LONGEST_END)
+    elif player.returncode != 0 and not rospy.is_shutdown():
+        raise RuntimeError("rosbag play %s: status %d" % (bag, player.returncode))
+
+
 def main():
     rospy.init_node("demo")
     folder = rospy.get_param("~folder")
@@ -60,14 +74,11 @@ def main():
     run_unless_there(os.path.join(folder, CODEBOOK), "training the objects",
                      [sks, "train", "--builtin", "--output", os.path.join(folder, CODEBOOK)])
     load(detector)
-    player = subprocess.Popen([program("rosbag", "play"), "--clock", "--loop", "--quiet", bag], stdin=subprocess.DEVNULL,
-                              stdout=subprocess.DEVNULL)
-    rospy.on_shutdown(player.terminate)
     rospy.loginfo("playing %s; rostopic echo %s/detections shows what is found", bag, detector)
-    status = player.wait()
-    if rospy.is_shutdown():
-        return 0
-    raise RuntimeError("rosbag play has ended with status %d" % status)
+    while not rospy.is_shutdown():
+        play(bag)
+        time.sleep(SECONDS_PER_TABLE)  # the last table is looked at as long as the others
+    return 0
 
 
 if __name__ == "__main__":
