@@ -21,18 +21,20 @@ def read(path):
 
 
 def debian_names():
-    """Key of package.xml to package of Debian, or to None where none is needed."""
+    """Key of package.xml to [package of Debian, or - where none is needed], or [package, 'recommended']."""
     lines = [line.split() for line in read(os.path.join(HERE, 'debian_names')).splitlines()]
-    return {line[0]: None if line[1] == '-' else line[1] for line in lines if line and line[0] != '#'}
+    return {line[0]: line[1:] for line in lines if line and line[0] != '#'}
 
 
-def run_time_depends(package, names):
+def run_time_packages(package, names):
+    """What is depended on, and what is recommended."""
     keys = [element.text for tag in RUN_TIME_TAGS for element in package.findall(tag)]
     unknown = sorted(set(keys) - set(names))
     if unknown:
         sys.exit('fill_template.py: package.xml names %s, which packaging/debian_names does not have: add the package of '
                  'Debian, or -' % ', '.join(unknown))
-    return sorted({names[key] for key in keys} - {None})
+    return (sorted({names[key][0] for key in keys if len(names[key]) == 1} - {'-'}),
+            sorted({names[key][0] for key in keys if names[key][1:] == ['recommended']}))
 
 
 def field_text(text):
@@ -44,12 +46,14 @@ def values(time):
     package = xml.etree.ElementTree.parse(os.path.join(ROOT, 'package.xml')).getroot()
     maintainer = package.find('maintainer')
     version = package.find('version').text
+    depends, recommends = run_time_packages(package, debian_names())
     return {
         'VERSION': version,
         'SOVERSION': re.match(r'\d+\.\d+', version).group(),
         'MAINTAINER': '%s <%s>' % (maintainer.text, maintainer.get('email')),
         'DATE': email.utils.formatdate(time),
-        'RUN_TIME_DEPENDS': ', '.join(run_time_depends(package, debian_names())),
+        'RUN_TIME_DEPENDS': ', '.join(depends),
+        'RUN_TIME_RECOMMENDS': ', '.join(recommends),
         'LICENSE': field_text(read(os.path.join(ROOT, 'LICENSE'))),
     }
 

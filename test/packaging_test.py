@@ -70,13 +70,15 @@ class Template(unittest.TestCase):
             self.assertTrue(os.path.exists(os.path.join(self.debian, name + '.install')), name)
 
     def test_everything_needed_at_run_time_has_a_package(self):
-        names = dict(line.split() for line in read('packaging', 'debian_names').splitlines() if line and line[0] != '#')
-        depends = re.split(r', *', self.packages()['ros-sks-detector']['Depends'])
+        lines = [line.split() for line in read('packaging', 'debian_names').splitlines() if line and line[0] != '#']
+        names = {line[0]: line[1:] for line in lines}
+        package = self.packages()['ros-sks-detector']
+        depends, recommends = (re.split(r', *', package[field]) for field in ('Depends', 'Recommends'))
         keys = [element.text for tag in ('depend', 'exec_depend') for element in PACKAGE.findall(tag)]
         self.assertEqual(set(keys), set(names))
         for key in keys:
-            if names[key] != '-':
-                self.assertIn(names[key], depends)
+            if names[key] != ['-']:
+                self.assertIn(names[key][0], recommends if names[key][1:] == ['recommended'] else depends)
 
     def test_a_key_without_a_package_is_named(self):
         text = read(self.checkout, 'package.xml').replace('</package>', '<exec_depend>warp_drive</exec_depend></package>')

@@ -50,7 +50,7 @@ check_links() {
 # purge PACKAGE...: nothing is left of them: no file, no state, no path with our name.
 purge() {
   local listed=/tmp/listed left
-  dpkg --listfiles "$@" | grep '^/' | sort --unique >"$listed"
+  dpkg --listfiles "$@" | grep '^/[^.]' | sort --unique >"$listed"
   apt-get -qq purge --yes "$@" >/tmp/apt.log 2>&1 || fail "apt-get purge $*"
   left=$(installed)
   [[ -z $left ]] || fail "still known to dpkg: $left"
