@@ -23,7 +23,7 @@ python3 - <<'END'
 import json
 with open("found.json") as file:
     found = json.load(file)
-detections = [d for d in found["detections"] if d["score"] >= 0.5]
+detections = [d for d in found["clouds"][0]["detections"] if d["score"] >= 0.5]
 print("  sks detect:", ", ".join("%s %.2f" % (d["object"], d["score"]) for d in detections))
 if not detections:
     raise SystemExit("sks detect has found nothing")

@@ -34,11 +34,12 @@ list_files() {
     -o -print | sort
 }
 
-# Every library that a program or library of our packages needs is there.
+# No link leads to nowhere, and every library that a program or library of our packages needs is there.
 check_links() {
   local package file missing
   for package; do
     while read -r file; do
+      [[ -e $file ]] || fail "$file of $package is a link to nowhere"
       [[ -f $file && ! -L $file ]] || continue
       head --bytes=4 "$file" | cmp --quiet - <(printf '\177ELF') || continue
       missing=$(ldd "$file" 2>/dev/null | grep "not found" || true)
