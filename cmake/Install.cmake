@@ -25,10 +25,16 @@ install(PROGRAMS scripts/plot_evaluation.py scripts/plot_keypoints.py DESTINATIO
 export(EXPORT ${PROJECT_NAME}Targets NAMESPACE ${PROJECT_NAME}::
   FILE ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}Targets.cmake)
 install(EXPORT ${PROJECT_NAME}Targets NAMESPACE ${PROJECT_NAME}:: DESTINATION ${sks_cmake_dir})
-if(NOT SKS_CATKIN)
-  write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}ConfigVersion.cmake
+option(SKS_PLAIN_CMAKE_PACKAGE "From a catkin build, install the CMake package for programs without ROS too" OFF)
+if(NOT SKS_CATKIN OR SKS_PLAIN_CMAKE_PACKAGE)
+  set(sks_plain_cmake_dir ${sks_cmake_dir})
+  if(SKS_CATKIN)
+    set(sks_plain_cmake_dir ${sks_lib_dir}/cmake/${PROJECT_NAME})
+    install(EXPORT ${PROJECT_NAME}Targets NAMESPACE ${PROJECT_NAME}:: DESTINATION ${sks_plain_cmake_dir})
+  endif()
+  write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/plain/${PROJECT_NAME}ConfigVersion.cmake
     COMPATIBILITY SameMinorVersion)
   #catkin_lint: ignore_once missing_file wrong_install_destination
-  install(FILES cmake/${PROJECT_NAME}Config.cmake ${CMAKE_CURRENT_BINARY_DIR}/${PROJECT_NAME}ConfigVersion.cmake
-    DESTINATION ${sks_cmake_dir})
+  install(FILES cmake/${PROJECT_NAME}Config.cmake ${CMAKE_CURRENT_BINARY_DIR}/plain/${PROJECT_NAME}ConfigVersion.cmake
+    DESTINATION ${sks_plain_cmake_dir})
 endif()

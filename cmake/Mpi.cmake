@@ -20,6 +20,8 @@ file(GLOB mpi_sources CONFIGURE_DEPENDS src/tools/cluster/mpi/*.cpp)
 add_library(${PROJECT_NAME}_mpi MODULE ${mpi_sources})
 target_include_directories(${PROJECT_NAME}_mpi PRIVATE src)
 target_link_libraries(${PROJECT_NAME}_mpi PRIVATE sks_build_flags ${PROJECT_NAME}_core MPI::MPI_CXX)
+# Debian wants it of what is in a folder of libraries; CMake gives modules none.
+target_link_options(${PROJECT_NAME}_mpi PRIVATE "LINKER:-soname,lib${PROJECT_NAME}_mpi.so")
 set_target_properties(${PROJECT_NAME}_mpi PROPERTIES INSTALL_RPATH "\$ORIGIN")
 add_dependencies(sks ${PROJECT_NAME}_mpi)
 install(TARGETS ${PROJECT_NAME}_mpi LIBRARY DESTINATION ${sks_lib_dir})

@@ -73,6 +73,7 @@ install(TARGETS ${sks_ros_libraries} ${PROJECT_NAME}_nodelets
   ARCHIVE DESTINATION ${sks_lib_dir}
   LIBRARY DESTINATION ${sks_lib_dir}
   RUNTIME DESTINATION ${sks_bin_dir})
-install(PROGRAMS scripts/measure_node.py scripts/measure_training.py scripts/soak scripts/train_client.py DESTINATION ${sks_bin_dir})
+install(PROGRAMS scripts/measure_node.py scripts/measure_training.py scripts/play_demo.py scripts/soak scripts/train_client.py
+  DESTINATION ${sks_bin_dir})
 install(FILES nodelet_plugins.xml DESTINATION ${sks_share_dir})
 install(DIRECTORY launch DESTINATION ${sks_share_dir})

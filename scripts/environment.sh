@@ -5,6 +5,7 @@
 #   root       this checkout
 #   workspace  catkin workspace that they build in: $SKS_WORKSPACE, by default build/catkin in the checkout
 #   SKS_DATA   (exported) folder of the recorded data sets, by default ../shared/data beside the checkout
+# and link_checkout, a function.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)
 workspace=${SKS_WORKSPACE:-$root/build/catkin}
 export SKS_DATA=${SKS_DATA:-$(dirname "$root")/shared/data}
@@ -22,3 +23,15 @@ if [[ -f /opt/ros/noetic/setup.bash ]]; then
   source /opt/ros/noetic/setup.bash
   set -u
 fi
+
+# link_checkout FOLDER: makes it a folder of links to all that is in the checkout but `build` and what holds FOLDER itself:
+# ROS walks through packages, link by link, and would not end.
+link_checkout() {
+  local entry
+  [[ -L $1 ]] && rm "$1"
+  mkdir -p "$1"
+  find "$1" -maxdepth 1 -type l -delete
+  for entry in "$root"/*; do
+    [[ $entry == "$root/build" || $1/ == "$entry"/* ]] || ln -s "$entry" "$1/"
+  done
+}
