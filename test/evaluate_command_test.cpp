@@ -255,7 +255,7 @@ TEST_F(EvaluateCommand, ThresholdsOfSingleObjectsReplaceTheGeneralOne) {
   const json own = evaluated({"--set", "detection.threshold=1", "--set", "detection.thresholds=bumps=0"});
   EXPECT_GT(all["true_positives"].get<int>(), none["true_positives"].get<int>());
   for (const std::string key : {"true_positives", "false_positives", "average_precision"}) {
-    EXPECT_EQ(own["objects"]["bumps"][key], all["objects"]["bumps"][key]) << key;
+    EXPECT_EQ(own["per_object"]["bumps"][key], all["per_object"]["bumps"][key]) << key;
   }
   EXPECT_EQ(own["thresholds"], json({{"bumps", 0.0}}));
 }

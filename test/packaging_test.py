@@ -12,7 +12,7 @@ import tempfile
 import unittest
 import xml.etree.ElementTree
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+ROOT = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
 PACKAGE = xml.etree.ElementTree.parse(os.path.join(ROOT, 'package.xml')).getroot()
 VERSION = PACKAGE.find('version').text
 TIME = 1500000000  # [s]: Fri, 14 Jul 2017

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double independent_area = 0.007 * 0.007;  // [m^2] depth errors nearer to each other are alike
 constexpr double common_error = 0.0001;             // [m] of model and sensor that patches share: does not average out
-constexpr double sure_above = 2;                    // standard errors of what the pairs tell, which are not counted
+constexpr double sure_above = 3;                    // standard errors of what the pairs tell, which are not counted
 constexpr double any_turn = 1.8;                    // [rad] deviation of a turn of which nothing is known
 
 Vector6d rowOf(const Eigen::Vector3d& lever, const Eigen::Vector3d& normal, double radius) {
