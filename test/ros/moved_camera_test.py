@@ -4,8 +4,6 @@
 of sight in half of the views. It is tied all the same, trained and found in one frame, in ten commands."""
 import os
 import shutil
-import signal
-import subprocess
 import tempfile
 import unittest
 
@@ -14,9 +12,8 @@ import rospy
 import rostest
 from geometry_msgs.msg import PoseStamped
 
-import services_support
 import support
-from table_pictures import AROUND, ELSEWHERE, Camera, angle_of, recorded
+from table_pictures import AROUND, ELSEWHERE, Camera, TrainLaunch, angle_of, recorded
 
 COMMANDS = 10
 RIGHT = 4  # of ten directions at least: where the handle is out of sight, or points to the camera, the turn is often wrong
@@ -29,17 +26,12 @@ class MovedCameraTest(unittest.TestCase):
         cls.around = recorded(cls.folder, [dict(p, object="builtin:mug") for p in AROUND[::2]])
         cls.elsewhere = recorded(cls.folder, [dict(p, object="builtin:mug") for p in ELSEWHERE])
         cls.camera = Camera("/camera/points", "table")
-        cls.launch = subprocess.Popen(["roslaunch", "sks_detector", "train.launch", "folder:=" + cls.folder,
-                                       "fixed_frame:=table"])
-        cls.services = {name: rospy.ServiceProxy("/detector/" + name, kind)
-                        for name, kind in services_support.TYPES.items()}
-        for service in cls.services.values():
-            service.wait_for_service(support.PATIENCE)
+        cls.training = TrainLaunch(cls.folder, "fixed_frame:=table")
+        cls.services = cls.training.services
 
     @classmethod
     def tearDownClass(cls):
-        cls.launch.send_signal(signal.SIGINT)
-        cls.launch.wait(support.PATIENCE)
+        cls.training.stop()
         cls.camera.stop()
         shutil.rmtree(cls.folder)
 

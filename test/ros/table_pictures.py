@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of an object on a table, by a virtual camera that stands anywhere around it."""
+"""Pictures of an object on a table, by a virtual camera that stands anywhere around it, and the detector that is trained
+with them."""
 import json
 import os
+import signal
 import subprocess
 import threading
 
@@ -12,6 +14,7 @@ import rospy
 import std_msgs.msg
 import tf2_ros
 
+import services_support
 import support
 
 TABLE = {"elevation": 35, "distance": 0.7}
@@ -83,3 +86,18 @@ class Camera:
 
     def stop(self):
         self._timer.shutdown()
+
+
+class TrainLaunch:
+    """train.launch with folders of its own, and the services of its detector."""
+
+    def __init__(self, folder, *arguments):
+        self._launch = subprocess.Popen(["roslaunch", "sks_detector", "train.launch", "folder:=" + folder, *arguments])
+        self.services = {name: rospy.ServiceProxy("/detector/" + name, kind)
+                         for name, kind in services_support.TYPES.items()}
+        for service in self.services.values():
+            service.wait_for_service(support.PATIENCE)
+
+    def stop(self):
+        self._launch.send_signal(signal.SIGINT)
+        self._launch.wait(support.PATIENCE)

@@ -4,8 +4,6 @@
 it from other directions in one frame; and what goes wrong on the way."""
 import os
 import shutil
-import signal
-import subprocess
 import tempfile
 import unittest
 
@@ -15,9 +13,8 @@ import rospy
 import rostest
 import tf2_msgs.msg
 
-import services_support
 import support
-from table_pictures import AROUND, ELSEWHERE, Camera, angle_of, recorded
+from table_pictures import AROUND, ELSEWHERE, Camera, TrainLaunch, angle_of, recorded
 
 class TutorialTest(unittest.TestCase):
     @classmethod
@@ -34,16 +31,12 @@ class TutorialTest(unittest.TestCase):
         pictures = recorded(cls.folder, sum(groups.values(), []))
         cls.pictures = {name: [pictures.pop(0) for _ in group] for name, group in groups.items()}
         cls.camera = Camera("/camera/points")
-        cls.launch = subprocess.Popen(["roslaunch", "sks_detector", "train.launch", "folder:=" + cls.folder])
-        cls.services = {name: rospy.ServiceProxy("/detector/" + name, kind)
-                        for name, kind in services_support.TYPES.items()}
-        for service in cls.services.values():
-            service.wait_for_service(support.PATIENCE)
+        cls.training = TrainLaunch(cls.folder)
+        cls.services = cls.training.services
 
     @classmethod
     def tearDownClass(cls):
-        cls.launch.send_signal(signal.SIGINT)
-        cls.launch.wait(support.PATIENCE)
+        cls.training.stop()
         cls.camera.stop()
         shutil.rmtree(cls.folder)
 
