@@ -16,6 +16,7 @@ import tf2_msgs.msg
 import support
 from table_pictures import AROUND, ELSEWHERE, Camera, TrainLaunch, angle_of, recorded
 
+
 class TutorialTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
