@@ -35,8 +35,9 @@ class MovedCameraTest(unittest.TestCase):
         cls.camera.stop()
         shutil.rmtree(cls.folder)
 
-    def assertRight(self, expected, pose):
-        error = np.linalg.inv(expected) @ pose
+    def assertRight(self, T_model_camera, pose):
+        """Of a view, by where it puts the object."""
+        error = T_model_camera @ np.linalg.inv(pose)
         self.assertLess(np.linalg.norm(error[:3, 3]), 0.005)
         self.assertLess(angle_of(error), 3)
 
