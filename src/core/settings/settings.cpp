@@ -57,7 +57,7 @@ void validate(const Settings& settings) {
     throw Error(ErrorCode::bad_usage, std::string(less) + " = " + getSetting(settings, less) + " must be less than " +
                                           greater + " = " + getSetting(settings, greater));
   }
-  Thresholds{settings.detection};  // throws where it cannot be understood
+  Thresholds(settings.detection).ofSingleObjects();  // throws where it cannot be understood
 }
 
 std::vector<std::string> bindingConflicts(const Settings& codebook, const Settings& wanted) {
