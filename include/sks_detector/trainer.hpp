@@ -31,7 +31,7 @@ struct TrainingSample {
   /// Of a captured view: the plane that the object stood on, its normal towards the object; frame of the cloud [m].
   std::optional<Eigen::Hyperplane<double, 3>> plane = std::nullopt;
   /// Of a captured view: pose of the cloud's frame in a frame in which the object stood still, where the camera was
-  /// moved around it and it is known how [m]. Errors of some degrees do no harm.
+  /// moved around it and it is known how [m]. Its turn about the plane's normal should be right to a degree or two.
   std::optional<Eigen::Isometry3d> T_fixed_source = std::nullopt;
 };
 
