@@ -50,6 +50,7 @@ ModelSurface merged(const Codebook& codebook, std::vector<std::uint32_t> views) 
     surface.normals.push_back(view.surface_normals[i]);
     if (colored) surface.colors.push_back(view.surface_colors[i]);
   }
+  if (views.size() > 1) surface.body = findBodyAxis(surface.points, surface.normals);
   for (const std::uint32_t v : views) {
     const TrainingView& view = codebook.views[v];
     surface.centers.push_back(view.center());

@@ -3,11 +3,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <sks_detector/codebook.hpp>
+
+#include "core/verification/body_axis.hpp"
 
 namespace sks {
 
@@ -18,6 +21,7 @@ struct ModelSurface {
   std::vector<Eigen::Vector3f> normals;     ///< unit
   std::vector<Eigen::Vector3f> colors;      ///< as in Surface; empty without colour
   float resolution = 0;                     ///< [m]
+  std::optional<BodyAxis> body;             ///< of a surface that several views saw, if it has one
   std::vector<std::uint32_t> views;         ///< that it is made of: indices into Codebook::views
   std::vector<Eigen::Vector3f> centers;     ///< of the boxes of these views [m]
   std::vector<Eigen::Vector3f> directions;  ///< unit vectors from there to the sensors that took them

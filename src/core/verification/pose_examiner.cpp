@@ -21,6 +21,8 @@ constexpr std::size_t first_points = 250, last_points = 1500;  // examined to ch
 constexpr double least_promising = 0.5;  // evidence of a turned pose before its fit, beside that of the pose itself
 constexpr double standing_density = 2;   // of votes: what it is worth that something stands alone there
 
+constexpr double finest_step = 1.5 * EIGEN_PI / 180;  // [rad] of turns about the axis of a body: 1 mm of a mug
+
 constexpr int fine = 8;  // times as many points, of all sides, fit the pose that is told in the end
 
 /// Of ICP with nearest pairs, for poses that are a fraction of a millimetre off.
@@ -157,42 +159,68 @@ Hypothesis PoseExaminer::fitted(Hypothesis hypothesis) const {
   return hypothesis;
 }
 
-template <typename Fit, typename Agreement>
-Hypothesis PoseExaminer::bestOfTurned(Hypothesis best, Fit&& fit, Agreement&& agreement) const {
+template <typename Fit>
+Hypothesis PoseExaminer::bestOfTurned(const Hypothesis& hypothesis, Fit&& fit) const {
   const auto glance = [&](Hypothesis h) {
     PoseEvidence pose;
     return evidenceAt(h, pose, first_points, CorrespondenceSearch::along_ray);
   };
-  const double least = least_promising * glance(best);
-  double most = agreement(best);
-  for (Hypothesis turned : turnedAround(best)) {
+  std::vector<Hypothesis> poses{hypothesis};
+  const double least = least_promising * glance(hypothesis);
+  for (Hypothesis& turned : turnedAround(hypothesis)) {
     if (glance(turned) < least) continue;  // another side, whatever a fit would gain
-    turned = fit(std::move(turned));
-    const double agrees = agreement(turned);
-    if (agrees <= most) continue;
-    most = agrees;
-    best = std::move(turned);
+    poses.push_back(fit(std::move(turned)));
   }
-  return best;
+  PoseComparison comparison = comparisonFor(hypothesis);
+  for (const Hypothesis& pose : poses) comparison.add(pose.T_scene_model);
+  Hypothesis best = std::move(poses[comparison.best()]);
+  const std::optional<BodyAxis>& body = models_.surfaces[best.view]->body;
+  if (!body) return best;
+  turnFinely(best, comparison.best(), *body, comparison);
+  return withBetterTurn(best, fit(best));
+}
+
+PoseComparison PoseExaminer::comparisonFor(const Hypothesis& hypothesis) const {
+  return {*models_.surfaces[hypothesis.view], scene_, settings_.verification, hypothesis.box_size.maxCoeff()};
+}
+
+void PoseExaminer::turnFinely(Hypothesis& hypothesis, std::size_t number, const BodyAxis& body,
+                              PoseComparison& comparison) const {
+  for (double step = body_step / 2; step > finest_step; step /= 2) {
+    for (const double angle : {-step, step}) {
+      const Eigen::Isometry3d turned = turnedAbout(body, angle, hypothesis.T_scene_model);
+      const std::size_t i = comparison.add(turned);
+      if (comparison.agreement(i) <= comparison.agreement(number)) continue;
+      number = i;
+      hypothesis.T_scene_model = turned;
+      break;
+    }
+  }
+}
+
+Hypothesis PoseExaminer::withBetterTurn(const Hypothesis& before, Hypothesis fitted) const {
+  const std::optional<BodyAxis>& body = models_.surfaces[fitted.view]->body;
+  if (!body) return fitted;
+  Hypothesis kept = fitted;
+  const double back = turnAbout(*body, fitted.T_scene_model, before.T_scene_model);
+  kept.T_scene_model = turnedAbout(*body, back, fitted.T_scene_model);
+  PoseComparison comparison = comparisonFor(fitted);
+  comparison.add(fitted.T_scene_model);
+  comparison.add(kept.T_scene_model);
+  return comparison.best() == 0 ? fitted : kept;
 }
 
 Hypothesis PoseExaminer::bestTurned(const Hypothesis& hypothesis) const {
   const TrainingView& view = codebook_.views[hypothesis.view];
   if (!scene_.comparesColor(view) || models_.surfaces[hypothesis.view]->views.size() < 2) return hypothesis;
-  const auto evidenceAlongRays = [&](Hypothesis& h) {
-    PoseEvidence pose;
-    const double evidence = evidenceAt(h, pose, last_points, CorrespondenceSearch::along_ray);
-    const SightLines lines = sightLines(h);
-    return evidence * lines.agreement() * lines.pattern;
-  };
-  return bestOfTurned(
-      hypothesis, [&](Hypothesis h) { return refined(std::move(h)); }, evidenceAlongRays);
+  return bestOfTurned(hypothesis, [&](Hypothesis h) { return refined(std::move(h)); });
 }
 
 std::vector<Hypothesis> PoseExaminer::turnedAround(const Hypothesis& hypothesis) const {
   std::vector<Hypothesis> all;
   const Eigen::Vector3d center = codebook_.views[hypothesis.view].center().cast<double>();
-  for (const auto& T : turnedPoses(hypothesis.T_scene_model, center, hypothesis.box_size)) {
+  const std::optional<BodyAxis>& body = models_.surfaces[hypothesis.view]->body;
+  for (const auto& T : turnedPoses(hypothesis.T_scene_model, center, hypothesis.box_size, body)) {
     Hypothesis turned = hypothesis;
     turned.T_scene_model = T;
     turned.view = nearestView(*models_.surfaces[turned.view], scene_.surface.sensor_origin, T);
@@ -225,17 +253,10 @@ Hypothesis PoseExaminer::bestFitted(const Hypothesis& hypothesis) const {
   const TrainingView& view = codebook_.views[hypothesis.view];
   const bool registered = models_.surfaces[hypothesis.view]->views.size() > 1;
   if (!registered && view.kind != ViewKind::model) return hypothesis;  // a single view gets no more exact
-  Hypothesis best = fitted(hypothesis);
+  const Hypothesis best = withBetterTurn(hypothesis, fitted(hypothesis));
   if (!registered || scene_.comparesColor(view)) return best;
-  // By its shape alone a box hardly differs from the box turned around. A larger area says nothing here.
-  const auto agreement = [&](const Hypothesis& h) {
-    const TrainingView& turned = codebook_.views[h.view];
-    const PoseEvidence pose = examinePose(turned, models_.weights.at(h.view, strideFor(turned, last_points)), scene_,
-                                          settings_, h.T_scene_model, last_points, CorrespondenceSearch::along_ray);
-    return fractionOf(pose) * std::sqrt(coverageOf(pose)) * sightLines(h).agreement();
-  };
-  return bestOfTurned(
-      std::move(best), [&](Hypothesis h) { return fitted(std::move(h)); }, agreement);
+  // By its shape alone a box hardly differs from the box turned around.
+  return bestOfTurned(best, [&](Hypothesis h) { return fitted(std::move(h)); });
 }
 
 double PoseExaminer::evidenceAt(Hypothesis& hypothesis, PoseEvidence& pose, std::size_t most_points,

@@ -11,6 +11,7 @@
 #include <sks_detector/stages/hypothesis.hpp>
 
 #include "core/verification/model_surface.hpp"
+#include "core/verification/pose_comparison.hpp"
 #include "core/verification/pose_evidence.hpp"
 #include "core/verification/resting_poses.hpp"
 #include "core/verification/rough_support.hpp"
@@ -87,9 +88,17 @@ public:
 private:
   Hypothesis bestFitted(const Hypothesis& hypothesis) const;
   Hypothesis fitted(Hypothesis hypothesis) const;
-  /// Of a pose and those turned around it, after a fit, that which agrees most.
-  template <typename Fit, typename Agreement>
-  Hypothesis bestOfTurned(Hypothesis best, Fit&& fit, Agreement&& agreement) const;
+  /// Of a pose and those turned around it, after a fit, that which agrees most with what they explain together: a mug
+  /// that hides its handle would else agree with any mug.
+  template <typename Fit>
+  Hypothesis bestOfTurned(const Hypothesis& hypothesis, Fit&& fit) const;
+  PoseComparison comparisonFor(const Hypothesis& hypothesis) const;
+  /// Turns a pose, `number` of the comparison, between those that turnedPoses() tries about the axis of a body: where
+  /// only colours tell it, no fit finds it.
+  void turnFinely(Hypothesis& hypothesis, std::size_t number, const BodyAxis& body, PoseComparison& comparison) const;
+  /// A fitted pose, or the same with the turn about the axis of its body that it had before, as the scene agrees more:
+  /// the shape of a can says nothing of its turn, and a fit lets it drift.
+  Hypothesis withBetterTurn(const Hypothesis& before, Hypothesis fitted) const;
   std::vector<Hypothesis> turnedAround(const Hypothesis& hypothesis) const;
   double evidenceAt(Hypothesis& hypothesis, PoseEvidence& pose, std::size_t most_points,
                     CorrespondenceSearch search) const;

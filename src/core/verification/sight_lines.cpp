@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/verification/color_agreement.hpp"
 #include "core/verification/color_pattern.hpp"
 
 namespace sks {
@@ -15,6 +16,7 @@ constexpr double prior_outline = 3;      // the same of the outline
 constexpr float points_per_cell = 1.5f;  // edge of a cell in spacings of the model's points: few cells stay empty
 constexpr int outside = 2;               // cells from the outline to where the scene is looked at, and
 constexpr int clear = 3;                 // as many must be free of the model
+constexpr double other_normal = 0.5;     // weight of a ray that met the scene where its normal differs
 constexpr int widest_mask = 1024;        // along an edge of the mask
 
 /// A point of the model where the pose puts it, and the ray to it.
@@ -184,6 +186,37 @@ SightLines lookAlongRays(const ModelSurface& model, const SceneView& scene, cons
     lines.pattern = pattern.agreement(double(scene.color_tolerance));
   }
   return lines;
+}
+
+RayAgreement agreementAlongRays(const ModelSurface& model, const SceneView& scene, const VerificationSettings& settings,
+                                const Eigen::Isometry3d& T_scene_model, float object_size) {
+  RayAgreement all;
+  const float distance = float(settings.support_distance), occlusion = float(settings.occlusion_distance);
+  const float agreement = float(std::cos(settings.support_angle));
+  const Silhouette silhouette(model, scene, T_scene_model.cast<float>(), occlusion);
+  const bool colored = scene.color_tolerance > 0 && !model.colors.empty();
+  ColorPattern pattern;
+  for (const RaySample& p : silhouette.visible()) {
+    const Sighting seen = scene.range_image.look(p.point, occlusion);
+    if (!seen.hasPoint() || (seen.cell->position() - p.point).squaredNorm() > distance * distance) {
+      if (seen.sight == Sight::unknown) all.rays += unmeasured;
+      if (seen.sight == Sight::at || seen.sight == Sight::in_front) all.rays += 1;
+      continue;
+    }
+    const std::uint32_t point = scene.range_image.pointOf(seen);
+    if (scene.onLargerPlane(point, object_size)) continue;
+    all.rays += 1;
+    all.met += 1;
+    double agrees = p.normal.dot(seen.cell->normal()) > agreement ? 1 : other_normal;
+    if (colored) {
+      const Eigen::Vector3f &color = model.colors[p.index], seen_color = scene.colorAt(point);
+      agrees *= double(colorAgreement(squaredColorDifference(color, seen_color), scene.color_tolerance));
+      pattern.add(color, seen_color);
+    }
+    all.agreeing += agrees;
+  }
+  if (colored && all.met > 0) all.pattern = pattern.agreement(double(scene.color_tolerance));
+  return all;
 }
 
 }  // namespace sks

@@ -34,4 +34,17 @@ struct SightLines {
 SightLines lookAlongRays(const ModelSurface& model, const SceneView& scene, const VerificationSettings& settings,
                          const Eigen::Isometry3d& T_scene_model, float object_size);
 
+/// How well a model in a pose and the scene agree along the rays (PoseComparison).
+struct RayAgreement {
+  double rays = 0;  ///< to the visible surface of the model; half where nothing was measured
+  double met = 0;   ///< of these, that met the scene there
+  double agreeing =
+      0;               ///< the same, by how much colours agree; half where the normal differs, as it does on thin parts
+  double pattern = 1;  ///< as in SightLines
+};
+
+/// Arguments as of lookAlongRays().
+RayAgreement agreementAlongRays(const ModelSurface& model, const SceneView& scene, const VerificationSettings& settings,
+                                const Eigen::Isometry3d& T_scene_model, float object_size);
+
 }  // namespace sks
