@@ -2,6 +2,7 @@
 #include "core/verification/pose_comparison.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace sks {
 namespace {
@@ -25,12 +26,13 @@ double PoseComparison::agreement(std::size_t i) const {
   return 2 * pose.agreeing * pose.pattern / (pose.rays + most_met_ + prior_rays);
 }
 
-std::size_t PoseComparison::best() const {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < poses_.size(); ++i) {
-    if (agreement(i) > agreement(best)) best = i;
-  }
-  return best;
+std::vector<std::size_t> PoseComparison::ranked(std::size_t most) const {
+  std::vector<std::size_t> order(poses_.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::stable_sort(order.begin(), order.end(),
+                   [this](std::size_t a, std::size_t b) { return agreement(a) > agreement(b); });
+  order.resize(std::min(most, order.size()));
+  return order;
 }
 
 }  // namespace sks

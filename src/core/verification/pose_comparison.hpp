@@ -27,8 +27,8 @@ public:
   /// In [0, 1]: twice the rays that agree in place and colour, over those to what pose `i` shows and those that met the
   /// scene in the pose, of all so far, that meets most of it.
   double agreement(std::size_t i) const;
-  /// The number of the pose that agrees most; the first of several.
-  std::size_t best() const;
+  /// The numbers of the poses that agree most, the best first; at most so many. The first of equals.
+  std::vector<std::size_t> ranked(std::size_t most) const;
 
 private:
   const ModelSurface& model_;

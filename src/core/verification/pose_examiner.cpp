@@ -19,6 +19,7 @@ constexpr double prior_area = 0.25e-4;  // [m^2] keeps the fraction of a very sm
 constexpr double color_gain = 1.8;      // of evidence: what right poses lose by colours that agree to about 0.8
 constexpr std::size_t first_points = 250, last_points = 1500;  // examined to choose between poses, and of the chosen
 constexpr double least_promising = 0.5;  // evidence of a turned pose before its fit, beside that of the pose itself
+constexpr std::size_t most_fitted = 6;   // of turned poses, by how they agree before the fit
 constexpr double standing_density = 2;   // of votes: what it is worth that something stands alone there
 
 constexpr double finest_step = 1.5 * EIGEN_PI / 180;  // [rad] of turns about the axis of a body: 1 mm of a mug
@@ -168,15 +169,21 @@ Hypothesis PoseExaminer::bestOfTurned(const Hypothesis& hypothesis, Fit&& fit) c
   std::vector<Hypothesis> poses{hypothesis};
   const double least = least_promising * glance(hypothesis);
   for (Hypothesis& turned : turnedAround(hypothesis)) {
-    if (glance(turned) < least) continue;  // another side, whatever a fit would gain
-    poses.push_back(fit(std::move(turned)));
+    if (glance(turned) >= least) poses.push_back(std::move(turned));  // else another side, whatever a fit would gain
   }
   PoseComparison comparison = comparisonFor(hypothesis);
   for (const Hypothesis& pose : poses) comparison.add(pose.T_scene_model);
-  Hypothesis best = std::move(poses[comparison.best()]);
+  for (const std::size_t i : comparison.ranked(most_fitted)) {
+    if (i == 0) continue;
+    Hypothesis fitted = fit(poses[i]);
+    comparison.add(fitted.T_scene_model);
+    poses.push_back(std::move(fitted));
+  }
+  const std::size_t number = comparison.ranked(1).front();
+  Hypothesis best = std::move(poses[number]);
   const std::optional<BodyAxis>& body = models_.surfaces[best.view]->body;
   if (!body) return best;
-  turnFinely(best, comparison.best(), *body, comparison);
+  turnFinely(best, number, *body, comparison);
   return withBetterTurn(best, fit(best));
 }
 
@@ -207,7 +214,7 @@ Hypothesis PoseExaminer::withBetterTurn(const Hypothesis& before, Hypothesis fit
   PoseComparison comparison = comparisonFor(fitted);
   comparison.add(fitted.T_scene_model);
   comparison.add(kept.T_scene_model);
-  return comparison.best() == 0 ? fitted : kept;
+  return comparison.ranked(1).front() == 0 ? fitted : kept;
 }
 
 Hypothesis PoseExaminer::bestTurned(const Hypothesis& hypothesis) const {
