@@ -10,7 +10,7 @@ import unittest
 import rostest
 
 MINUTES = float(os.environ.get("SKS_SOAK_MINUTES", 1))
-WARMUP = 60  # until each worker thread has seen each scene, and its buffers have grown [s]
+WARMUP = 90  # until each worker thread has seen each scene, and its buffers have grown [s]
 LIMITS = [] if MINUTES >= 10 else ["--growth", "5", "--slower", "50"]
 
 

@@ -2,12 +2,14 @@
 #include "core/registration/model_fusion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <tuple>
 #include <utility>
 
+#include "core/registration/view_exposure.hpp"
 #include "core/surface/color_space.hpp"
 #include "core/surface/sided_cube.hpp"
 #include "core/verification/pose_evidence.hpp"
@@ -39,6 +41,7 @@ public:
 
   FusedModel fused() {
     collect();
+    compareExposures();
     std::vector<Averaged> surface = averaged();
     surface.erase(std::remove_if(surface.begin(), surface.end(), [&](const Averaged& p) { return isRemnant(p); }),
                   surface.end());
@@ -72,6 +75,26 @@ private:
     });
   }
 
+  void compareExposures() {
+    std::vector<SeenColor> seen;
+    std::uint32_t place = 0;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      if (i > 0 && !(all_[i].cube == all_[i - 1].cube)) ++place;
+      if (views_[all_[i].view].hasColor()) seen.push_back({place, all_[i].view, colorOf(all_[i])});
+    }
+    exposures_ = exposureFactors(seen, views_.size());
+  }
+
+  Rgb colorOf(const ModelPoint& p) const {
+    const Eigen::Vector3f& lab = views_[p.view].colors[p.point];
+    return fromScaledLab({lab[0], lab[1], lab[2]});
+  }
+
+  Eigen::Vector3f exposedColorOf(const ModelPoint& p) const {
+    const std::array<float, 3> lab = toScaledLab(exposed(colorOf(p), exposures_[p.view]));
+    return {lab[0], lab[1], lab[2]};
+  }
+
   std::vector<Averaged> averaged() const {
     std::vector<Averaged> surface;
     for (std::size_t begin = 0, end = 0; begin < all_.size(); begin = end) {
@@ -87,7 +110,7 @@ private:
         weights += weight;
         sum.point += weight * (T * view.points.point(i));
         sum.normal += weight * (T.linear() * view.normals[i]);
-        if (view.hasColor()) sum.color += weight * view.colors[i];
+        if (view.hasColor()) sum.color += weight * exposedColorOf(all_[end]);
         if (sum.views.empty() || sum.views.back() != all_[end].view) sum.views.push_back(all_[end].view);
       }
       if (!(sum.normal.norm() > 0)) continue;
@@ -134,7 +157,8 @@ private:
   const std::vector<std::optional<Eigen::Isometry3d>>& poses_;
   const Settings& settings_;
   float edge_;
-  std::vector<ModelPoint> all_;  // by cube
+  std::vector<ModelPoint> all_;            // by cube
+  std::vector<Eigen::Array3f> exposures_;  // of the views
 };
 
 }  // namespace

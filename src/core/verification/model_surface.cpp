@@ -2,12 +2,14 @@
 #include "core/verification/model_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <unordered_map>
 #include <utility>
 
+#include "core/surface/color_space.hpp"
 #include "core/surface/sided_cube.hpp"
 
 namespace sks {
@@ -28,7 +30,8 @@ struct HashOfCube {
   }
 };
 
-ModelSurface merged(const Codebook& codebook, std::vector<std::uint32_t> views) {
+/// One point of the views in each cube: that of the first view that has any.
+ModelSurface merged(const Codebook& codebook, const std::vector<std::uint32_t>& views) {
   const float resolution = float(codebook.settings.training.surface_resolution);
   std::unordered_map<SidedCube, PointOfView, HashOfCube> first;  // that lies in each cube
   bool colored = true;
@@ -42,7 +45,6 @@ ModelSurface merged(const Codebook& codebook, std::vector<std::uint32_t> views) 
   std::vector<std::pair<SidedCube, PointOfView>> all(first.begin(), first.end());
   std::sort(all.begin(), all.end());  // few of many: most points of the views share their cubes
   ModelSurface surface;
-  surface.resolution = resolution;
   for (const auto& [cube, point] : all) {
     const auto [v, i] = point;
     const TrainingView& view = codebook.views[v];
@@ -50,6 +52,25 @@ ModelSurface merged(const Codebook& codebook, std::vector<std::uint32_t> views) 
     surface.normals.push_back(view.surface_normals[i]);
     if (colored) surface.colors.push_back(view.surface_colors[i]);
   }
+  return surface;
+}
+
+/// Of captured views: averaged over all of them. The colours of single views are a patchwork of their light and shade.
+ModelSurface averaged(const FusedModel& model) {
+  ModelSurface surface;
+  surface.points = model.points;
+  surface.normals = model.normals;
+  for (const Rgb& color : model.colors) {
+    const std::array<float, 3> lab = toScaledLab(color);
+    surface.colors.emplace_back(lab[0], lab[1], lab[2]);
+  }
+  return surface;
+}
+
+ModelSurface surfaceOf(const Codebook& codebook, std::vector<std::uint32_t> views) {
+  const RegisteredModel* model = codebook.modelOf(codebook.views[views.front()]);
+  ModelSurface surface = model != nullptr ? averaged(model->surface) : merged(codebook, views);
+  surface.resolution = float(codebook.settings.training.surface_resolution);
   if (views.size() > 1) surface.body = findBodyAxis(surface.points, surface.normals);
   for (const std::uint32_t v : views) {
     const TrainingView& view = codebook.views[v];
@@ -72,7 +93,7 @@ std::vector<std::shared_ptr<const ModelSurface>> modelSurfaces(const Codebook& c
   std::vector<std::shared_ptr<const ModelSurface>> of_views(codebook.views.size());
 #pragma omp parallel for schedule(dynamic, 1) num_threads(threads)
   for (std::size_t i = 0; i < together.size(); ++i) {
-    const auto surface = std::make_shared<const ModelSurface>(merged(codebook, together[i]));
+    const auto surface = std::make_shared<const ModelSurface>(surfaceOf(codebook, together[i]));
     for (const std::uint32_t v : together[i]) of_views[v] = surface;
   }
   return of_views;
