@@ -28,7 +28,7 @@ Codebook twoViews() {
   return codebook;
 }
 
-TEST(ModelSurface, IsTheUnionOfTheViewsOfAFrame) {
+TEST(AveragedSurface, IsTheUnionOfTheViewsOfAFrame) {
   const auto surfaces = modelSurfaces(twoViews());
   ASSERT_EQ(surfaces.size(), 2u);
   EXPECT_EQ(surfaces[0], surfaces[1]);
@@ -37,7 +37,7 @@ TEST(ModelSurface, IsTheUnionOfTheViewsOfAFrame) {
   EXPECT_EQ(surfaces[0]->views, (std::vector<std::uint32_t>{0, 1}));
 }
 
-TEST(ModelSurface, OfRegisteredViewsIsTheirAveragedModel) {
+TEST(AveragedSurface, OfRegisteredViewsIsTheirAveragedModel) {
   Codebook codebook = twoViews();
   RegisteredModel model;
   model.frame = "cup#model";

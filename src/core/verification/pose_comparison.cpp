@@ -15,7 +15,8 @@ PoseComparison::PoseComparison(const ModelSurface& model, const SceneView& scene
                                double object_size)
     : model_(model), scene_(scene), settings_(settings), object_size_(float(object_size)) {}
 
-std::size_t PoseComparison::add(const Eigen::Isometry3d& T_scene_model) {
+std::size_t PoseComparison::add(const Eigen::Isometry3d& T_scene_model, double factor) {
+  factors_.push_back(factor);
   poses_.push_back(agreementAlongRays(model_, scene_, settings_, T_scene_model, object_size_));
   most_met_ = std::max(most_met_, poses_.back().met);
   return poses_.size() - 1;
@@ -23,7 +24,7 @@ std::size_t PoseComparison::add(const Eigen::Isometry3d& T_scene_model) {
 
 double PoseComparison::agreement(std::size_t i) const {
   const RayAgreement& pose = poses_[i];
-  return 2 * pose.agreeing * pose.pattern / (pose.rays + most_met_ + prior_rays);
+  return factors_[i] * 2 * pose.agreeing * pose.pattern / (pose.rays + most_met_ + prior_rays);
 }
 
 std::vector<std::size_t> PoseComparison::ranked(std::size_t most) const {

@@ -22,8 +22,8 @@ public:
   PoseComparison(const ModelSurface& model, const SceneView& scene, const VerificationSettings& settings,
                  double object_size);
 
-  /// Looks at a pose; its number, from 0 on.
-  std::size_t add(const Eigen::Isometry3d& T_scene_model);
+  /// Looks at a pose; its number, from 0 on. @param factor of its agreement, for what else is known of it
+  std::size_t add(const Eigen::Isometry3d& T_scene_model, double factor = 1);
   /// In [0, 1]: twice the rays that agree in place and colour, over those to what pose `i` shows and those that met the
   /// scene in the pose, of all so far, that meets most of it.
   double agreement(std::size_t i) const;
@@ -36,6 +36,7 @@ private:
   const VerificationSettings& settings_;
   float object_size_;
   std::vector<RayAgreement> poses_;
+  std::vector<double> factors_;
   double most_met_ = 0;  // rays
 };
 

@@ -172,11 +172,11 @@ Hypothesis PoseExaminer::bestOfTurned(const Hypothesis& hypothesis, Fit&& fit) c
     if (glance(turned) >= least) poses.push_back(std::move(turned));  // else another side, whatever a fit would gain
   }
   PoseComparison comparison = comparisonFor(hypothesis);
-  for (const Hypothesis& pose : poses) comparison.add(pose.T_scene_model);
+  for (const Hypothesis& pose : poses) comparison.add(pose.T_scene_model, shapeFactor(pose));
   for (const std::size_t i : comparison.ranked(most_fitted)) {
     if (i == 0) continue;
     Hypothesis fitted = fit(poses[i]);
-    comparison.add(fitted.T_scene_model);
+    comparison.add(fitted.T_scene_model, shapeFactor(fitted));
     poses.push_back(std::move(fitted));
   }
   const std::size_t number = comparison.ranked(1).front();
@@ -185,6 +185,15 @@ Hypothesis PoseExaminer::bestOfTurned(const Hypothesis& hypothesis, Fit&& fit) c
   if (!body) return best;
   turnFinely(best, number, *body, comparison);
   return withBetterTurn(best, fit(best));
+}
+
+double PoseExaminer::shapeFactor(const Hypothesis& hypothesis) const {
+  const TrainingView& view = codebook_.views[hypothesis.view];
+  if (scene_.comparesColor(view)) return 1;
+  const PoseEvidence pose =
+      examinePose(view, models_.weights.at(hypothesis.view, strideFor(view, last_points)), scene_, settings_,
+                  hypothesis.T_scene_model, last_points, CorrespondenceSearch::along_ray);
+  return fractionOf(pose) * std::sqrt(coverageOf(pose)) * sightLines(hypothesis).agreement();
 }
 
 PoseComparison PoseExaminer::comparisonFor(const Hypothesis& hypothesis) const {
@@ -196,7 +205,9 @@ void PoseExaminer::turnFinely(Hypothesis& hypothesis, std::size_t number, const 
   for (double step = body_step / 2; step > finest_step; step /= 2) {
     for (const double angle : {-step, step}) {
       const Eigen::Isometry3d turned = turnedAbout(body, angle, hypothesis.T_scene_model);
-      const std::size_t i = comparison.add(turned);
+      Hypothesis candidate = hypothesis;
+      candidate.T_scene_model = turned;
+      const std::size_t i = comparison.add(turned, shapeFactor(candidate));
       if (comparison.agreement(i) <= comparison.agreement(number)) continue;
       number = i;
       hypothesis.T_scene_model = turned;
@@ -212,8 +223,8 @@ Hypothesis PoseExaminer::withBetterTurn(const Hypothesis& before, Hypothesis fit
   const double back = turnAbout(*body, fitted.T_scene_model, before.T_scene_model);
   kept.T_scene_model = turnedAbout(*body, back, fitted.T_scene_model);
   PoseComparison comparison = comparisonFor(fitted);
-  comparison.add(fitted.T_scene_model);
-  comparison.add(kept.T_scene_model);
+  comparison.add(fitted.T_scene_model, shapeFactor(fitted));
+  comparison.add(kept.T_scene_model, shapeFactor(kept));
   return comparison.ranked(1).front() == 0 ? fitted : kept;
 }
 

@@ -92,6 +92,9 @@ private:
   /// that hides its handle would else agree with any mug.
   template <typename Fit>
   Hypothesis bestOfTurned(const Hypothesis& hypothesis, Fit&& fit) const;
+  /// Where no colours are compared: how well the surface fits, with its outline; a larger area says nothing here.
+  /// Else 1.
+  double shapeFactor(const Hypothesis& hypothesis) const;
   PoseComparison comparisonFor(const Hypothesis& hypothesis) const;
   /// Turns a pose, `number` of the comparison, between those that turnedPoses() tries about the axis of a body: where
   /// only colours tell it, no fit finds it.
