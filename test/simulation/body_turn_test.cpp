@@ -38,6 +38,8 @@ TEST(BodyTurn, OfAMugIsRightFromAllAround) {
     const auto found = detector.detect(cloud).above(0.5);
     ASSERT_FALSE(found.empty()) << i;
     const Eigen::Isometry3d T_table_mug = T_table_camera * found[0].T_scene_model;
+    const Eigen::Vector3d center = found[0].T_scene_model.inverse() * found[0].T_scene_box.translation();
+    EXPECT_LT((center - mug->box().center().cast<double>()).norm(), 0.001) << i;  // the box is turned as well
     right += test::angleDegrees(T_table_mug.linear(), test::standingPose(*mug).linear()) < 5 ? 1 : 0;
   }
   EXPECT_GE(right, pictures - 1);  // the handle is out of sight in a third of them: there a spot opposite of it tells

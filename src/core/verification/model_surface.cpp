@@ -69,7 +69,8 @@ ModelSurface averaged(const FusedModel& model) {
 
 ModelSurface surfaceOf(const Codebook& codebook, std::vector<std::uint32_t> views) {
   const RegisteredModel* model = codebook.modelOf(codebook.views[views.front()]);
-  ModelSurface surface = model != nullptr ? averaged(model->surface) : merged(codebook, views);
+  const bool fused = model != nullptr && !model->surface.points.empty();
+  ModelSurface surface = fused ? averaged(model->surface) : merged(codebook, views);
   surface.resolution = float(codebook.settings.training.surface_resolution);
   if (views.size() > 1) surface.body = findBodyAxis(surface.points, surface.normals);
   for (const std::uint32_t v : views) {

@@ -149,14 +149,11 @@ Hypothesis PoseExaminer::refined(Hypothesis hypothesis) const {
 }
 
 Hypothesis PoseExaminer::fitted(Hypothesis hypothesis) const {
-  const TrainingView& view = codebook_.views[hypothesis.view];
   const ModelSurface& surface = *models_.surfaces[hypothesis.view];
   RefinementSettings refinement = lastRounds(settings_.refinement);
   refinement.max_points *= fine;
   hypothesis.T_scene_model =
       refinePose(surface.points, surface.normals, scene_.surface, refinement, hypothesis.T_scene_model);
-  hypothesis.T_scene_box = hypothesis.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
-  hypothesis.box_size = view.extent().cast<double>();
   return hypothesis;
 }
 
@@ -249,6 +246,9 @@ std::vector<Hypothesis> PoseExaminer::turnedAround(const Hypothesis& hypothesis)
 
 Hypothesis PoseExaminer::finished(const Hypothesis& hypothesis) const {
   Hypothesis best = bestFitted(hypothesis);
+  const TrainingView& view = codebook_.views[best.view];
+  best.T_scene_box = best.T_scene_model * Eigen::Translation3d(view.center().cast<double>());
+  best.box_size = view.extent().cast<double>();
   best.covariance = covarianceOf(best);
   return best;
 }
