@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Objects with a body of revolution are found with the right turn, wherever their handle or their print is seen.
 #include <memory>
-#include <string>
 
 #include <gtest/gtest.h>
 
@@ -9,7 +8,6 @@
 #include <sks_detector/simulation/camera_presets.hpp>
 #include <sks_detector/trainer.hpp>
 
-#include "error_of.hpp"
 #include "simulation/builtin_objects.hpp"
 #include "simulation/renderer.hpp"
 #include "synthetic.hpp"

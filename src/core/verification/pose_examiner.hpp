@@ -74,8 +74,8 @@ public:
   Examined examine(Hypothesis hypothesis, PoseEvidence* areas = nullptr) const;
   /// After some last rounds of ICP with nearest points.
   Hypothesis refined(Hypothesis hypothesis) const;
-  /// Of the refined pose and those in which the object's box lies as it does in this one, that with most evidence along
-  /// the sensor's rays, where colours are compared with just what was seen. Only where a model is known from all sides.
+  /// Of a pose and those of turnedPoses(), that which agrees most (PoseComparison). Only where a model is known from
+  /// all sides and colours are compared.
   Hypothesis bestTurned(const Hypothesis& hypothesis) const;
   /// The pose of an examined hypothesis fitted by many points of the whole model, where the model is known from all
   /// sides; where no colours are compared, the best of those turned as in bestTurned(). Its evidence stays. With the

@@ -38,8 +38,8 @@ SightLines lookAlongRays(const ModelSurface& model, const SceneView& scene, cons
 struct RayAgreement {
   double rays = 0;  ///< to the visible surface of the model; half where nothing was measured
   double met = 0;   ///< of these, that met the scene there
-  double agreeing =
-      0;               ///< the same, by how much colours agree; half where the normal differs, as it does on thin parts
+  /// The same, by how much colours agree; half where the normal differs, as it does on thin parts.
+  double agreeing = 0;
   double pattern = 1;  ///< as in SightLines
 };
 
