@@ -287,6 +287,8 @@ BENCHMARK(followSequence)
     ->Args({1, 2})
     ->Args({1, 3})
     ->Args({2, 1})
+    ->Args({2, 2})
+    ->Args({2, 3})
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
