@@ -3,6 +3,7 @@
 """Every shipped launch file can be loaded and explains its arguments."""
 import glob
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -68,6 +69,21 @@ class LaunchFilesTest(unittest.TestCase):
                 roslaunch.xmlloader.XmlLoader(resolve_anon=True).load_string(text % file, config, verbose=False)
                 self.assertGreaterEqual(len(config.nodes), 2)
                 self.assertEqual({node.machine_name for node in config.nodes}, {"robot"})
+
+    def test_machines_of_the_guide_have_their_own_nodes_and_frames(self):
+        with open(os.path.join(PACKAGE, "docs", "scaling.md")) as file:
+            text = re.search(r"^<launch>.*?^</launch>$", file.read(), re.MULTILINE | re.DOTALL).group()
+        config = roslaunch.config.ROSLaunchConfig()
+        roslaunch.xmlloader.XmlLoader(resolve_anon=True).load_string(text, config, verbose=False)
+        self.assertEqual(config.config_errors, [])
+        self.assertEqual({machine.name for machine in config.machines.values()} & {"left", "right"}, {"left", "right"})
+        self.assertEqual({(node.namespace.strip("/"), node.name, node.machine_name) for node in config.nodes},
+                         {(side, name, side) for side in ("left", "right") for name in ("camera", "detector", "sks_manager")})
+        for side in ("left", "right"):
+            self.assertEqual(config.params["/%s/camera/frame_id" % side].value, side + "_optical_frame")
+            self.assertEqual(config.params["/%s/detector/tf_prefix" % side].value, side)
+            remaps = [remap for node in config.nodes if node.machine_name == side for remap in node.remap_args]
+            self.assertIn(["~points", "/%s/camera/points" % side], remaps)
 
     def test_both_configurations_of_rviz_show_the_same_without_keypoints_at_first(self):
         displays = []
