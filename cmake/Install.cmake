@@ -37,4 +37,10 @@ if(NOT SKS_CATKIN OR SKS_PLAIN_CMAKE_PACKAGE)
   #catkin_lint: ignore_once missing_file wrong_install_destination
   install(FILES cmake/${PROJECT_NAME}Config.cmake ${CMAKE_CURRENT_BINARY_DIR}/plain/${PROJECT_NAME}ConfigVersion.cmake
     DESTINATION ${sks_plain_cmake_dir})
+  if(SKS_CATKIN)
+    # What catkin_package() wrote has the same name, and with Debian's catkin the same folder: the one above includes it.
+    #catkin_lint: ignore_once external_file missing_file wrong_install_destination
+    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/catkin_generated/installspace/${PROJECT_NAME}Config.cmake
+      DESTINATION ${sks_plain_cmake_dir} RENAME ${PROJECT_NAME}Catkin.cmake)
+  endif()
 endif()

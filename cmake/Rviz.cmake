@@ -28,7 +28,8 @@ target_link_libraries(${PROJECT_NAME}_rviz PUBLIC ${PROJECT_NAME}_core ${catkin_
   PRIVATE sks_build_flags sks_drawing)
 # A call that hangs may outlast its window: the code that it returns to must stay.
 target_link_options(${PROJECT_NAME}_rviz PRIVATE -Wl,-z,nodelete)
-set_target_properties(${PROJECT_NAME}_rviz PROPERTIES AUTOMOC ON UNITY_BUILD OFF)
+set_target_properties(${PROJECT_NAME}_rviz PROPERTIES AUTOMOC ON)
+sks_precompile(${PROJECT_NAME}_rviz <ros/node_handle.h> <QWidget> <rviz/display.h>)
 install(TARGETS ${PROJECT_NAME}_rviz
   ARCHIVE DESTINATION ${sks_lib_dir}
   LIBRARY DESTINATION ${sks_lib_dir}
