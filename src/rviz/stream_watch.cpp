@@ -22,7 +22,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-std::string seconds(double time) {
+std::string timeText(double time) {
   return time < 1 ? sks::formatted("%.0f ms", 1000 * time) : sks::formatted("%.1f s", time);
 }
 
@@ -48,9 +48,9 @@ std::string StreamWatch::describe(Clock::time_point now) {
   }
   const double latency = median(latencies);
   const bool other_clock = !(latency > -clock_difference && latency < furthest_stamp);
-  text += other_clock ? ", stamps of another clock" : ", " + seconds(std::max(latency, 0.0)) + " from camera to result";
+  text += other_clock ? ", stamps of another clock" : ", " + timeText(std::max(latency, 0.0)) + " from camera to result";
   const double in_node = median(processing);
-  if (std::isfinite(in_node)) text += ", " + seconds(std::max(in_node, 0.0)) + " of processing";
+  if (std::isfinite(in_node)) text += ", " + timeText(std::max(in_node, 0.0)) + " of processing";
   return text;
 }
 

@@ -25,7 +25,7 @@ constexpr double support_spacing = 0.01;      // of the points in which planes a
 constexpr double support_gap = 0.05;          // what is farther apart is no one plane [m]
 constexpr double smallest_support = 0.04;     // [m^2] a square of 0.2 m; things show less
 constexpr int most_supports = 6;              // planes that are looked at, in each of two searches
-constexpr std::size_t most_samples = 3000;    // points that planes are sought in
+constexpr std::size_t most_searched = 3000;   // points that planes are sought in
 constexpr std::size_t fewest_of_plane = 300;  // points of a plane: most of the smallest one
 
 // How far points of a plane lie from it.
@@ -199,7 +199,7 @@ std::vector<Candidate> findCandidates(const ThinnedScene& scene, const std::vect
   for (const std::uint32_t i : searched) is_searched[i] = 1;
   std::mt19937 random(1);
   for (int i = 0; i < most_supports; ++i) {
-    const std::size_t stride = searched.size() / most_samples + 1;
+    const std::size_t stride = searched.size() / most_searched + 1;
     OrientedPoints samples;
     double squared = 0;
     for (std::size_t k = 0; k < searched.size(); k += stride) {

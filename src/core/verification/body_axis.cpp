@@ -17,7 +17,7 @@ constexpr double least_lateral = 0.6;    // of the lateral normals meet the axis
 constexpr double least_area = 0.3;       // of the whole surface
 
 /// A normal in the plane across the axis.
-struct Line {
+struct NormalLine {
   Eigen::Vector2f point, along;
 };
 
@@ -25,20 +25,21 @@ float cross(const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-bool meets(const Line& line, const Eigen::Vector2f& center) {
+bool meets(const NormalLine& line, const Eigen::Vector2f& center) {
   const Eigen::Vector2f radius = line.point - center;
   return std::abs(cross(line.along, radius)) <= off * radius.norm();
 }
 
-std::size_t countMeeting(const std::vector<Line>& lines, const Eigen::Vector2f& center) {
-  return std::size_t(std::count_if(lines.begin(), lines.end(), [&](const Line& line) { return meets(line, center); }));
+std::size_t countMeeting(const std::vector<NormalLine>& lines, const Eigen::Vector2f& center) {
+  return std::size_t(
+      std::count_if(lines.begin(), lines.end(), [&](const NormalLine& line) { return meets(line, center); }));
 }
 
 /// Where the lines that meet a point meet best, by least squares.
-Eigen::Vector2f settled(const std::vector<Line>& lines, const Eigen::Vector2f& center) {
+Eigen::Vector2f settled(const std::vector<NormalLine>& lines, const Eigen::Vector2f& center) {
   Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const Line& line : lines) {
+  for (const NormalLine& line : lines) {
     if (!meets(line, center)) continue;
     const Eigen::Vector2d across(-double(line.along.y()), double(line.along.x()));
     information += across * across.transpose();
@@ -56,7 +57,7 @@ std::optional<BodyAxis> findBodyAxis(const std::vector<Eigen::Vector3f>& points,
   const std::size_t stride = points.size() / most_lines + 1;
   for (int axis = 0; axis < 3; ++axis) {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-    std::vector<Line> lines;
+    std::vector<NormalLine> lines;
     std::size_t looked_at = 0;
     for (std::size_t i = 0; i < points.size(); i += stride, ++looked_at) {
       const Eigen::Vector2f across(normals[i][u], normals[i][v]);
@@ -67,7 +68,7 @@ std::optional<BodyAxis> findBodyAxis(const std::vector<Eigen::Vector3f>& points,
     Eigen::Vector2f center = Eigen::Vector2f::Zero();
     std::size_t meeting = 0;
     for (int trial = 0; trial < trials; ++trial) {
-      const Line &a = lines[random() % lines.size()], &b = lines[random() % lines.size()];
+      const NormalLine &a = lines[random() % lines.size()], &b = lines[random() % lines.size()];
       const float sine = cross(a.along, b.along);
       if (std::abs(sine) < lateral) continue;  // nearly parallel: where they meet is not known well
       const Eigen::Vector2f where = a.point + a.along * (cross(b.point - a.point, b.along) / sine);

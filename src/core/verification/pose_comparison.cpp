@@ -7,7 +7,7 @@
 namespace sks {
 namespace {
 
-constexpr double prior_rays = 1;  // keeps the agreement of few rays low
+constexpr double uncertain_rays = 1;  // keeps the agreement of few rays low
 
 }  // namespace
 
@@ -24,7 +24,7 @@ std::size_t PoseComparison::add(const Eigen::Isometry3d& T_scene_model, double f
 
 double PoseComparison::agreement(std::size_t i) const {
   const RayAgreement& pose = poses_[i];
-  return factors_[i] * 2 * pose.agreeing * pose.pattern / (pose.rays + most_met_ + prior_rays);
+  return factors_[i] * 2 * pose.agreeing * pose.pattern / (pose.rays + most_met_ + uncertain_rays);
 }
 
 std::vector<std::size_t> PoseComparison::ranked(std::size_t most) const {
