@@ -89,5 +89,19 @@ TEST_F(PanelWithNodeTest, EachButtonDoesWhatItSays) {
   ASSERT_TRUE(until([&] { return nodeInfo().objects == Names({"thing", "round"}); })) << text("reply");
 }
 
+TEST_F(PanelWithNodeTest, CancelsATraining) {
+  ASSERT_TRUE(untilText("codebook", "2 objects")) << text("codebook");
+  click("train");
+  ASSERT_TRUE(until([&] { return part<QProgressBar>("progress")->value() > 0; })) << text("reply");
+  EXPECT_THAT(part<QProgressBar>("progress")->text().toStdString(), HasSubstr("of 3000"));
+  EXPECT_EQ(text("state"), "training");
+  EXPECT_FALSE(part<QPushButton>("train")->isEnabled());
+  click("cancel");
+  ASSERT_TRUE(untilText("reply", "cancelled")) << text("reply");
+  ASSERT_TRUE(until([&] { return part<QPushButton>("train")->isEnabled(); }));
+  EXPECT_FALSE(part<QPushButton>("cancel")->isEnabled());
+  EXPECT_THAT(nodeInfo().objects, ElementsAre("thing", "round")) << "the old codebook stays";
+}
+
 }  // namespace
 }  // namespace sks_detector
