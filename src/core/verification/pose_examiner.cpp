@@ -259,11 +259,9 @@ Matrix6d PoseExaminer::covarianceOf(const Hypothesis& hypothesis) const {
   const std::size_t stride = strideFor(view, last_points);
   sample.take(view, stride);
   const double resolution = settings_.training.surface_resolution;
-  const Eigen::Vector3d center = view.center().cast<double>();
-  const double range = (hypothesis.T_scene_model * center - scene_.surface.sensor_origin.cast<double>()).norm();
   const PoseInformation information(sample, double(stride) * resolution * resolution, scene_,
                                     settings_.refinement.end_distance, hypothesis.T_scene_model);
-  return poseCovariance(information, depthNoise(range), hypothesis.T_scene_model, center,
+  return poseCovariance(information, hypothesis.T_scene_model, view.center().cast<double>(),
                         double(view.extent().maxCoeff()));
 }
 

@@ -2,7 +2,9 @@
 #include "core/verification/pose_information.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include <Eigen/Eigenvalues>
 
@@ -12,6 +14,7 @@ namespace sks {
 namespace {
 
 constexpr double independent_area = 0.007 * 0.007;  // [m^2] depth errors nearer to each other are alike
+constexpr float alike_within = 0.02f;               // [m] errors farther apart are taken for independent
 constexpr double common_error = 0.0001;             // [m] of model and sensor that patches share: does not average out
 constexpr double sure_above = 3;                    // standard errors of what the pairs tell, which are not counted
 constexpr double any_turn = 1.8;                    // [rad] deviation of a turn of which nothing is known
@@ -64,8 +67,9 @@ PoseInformation::PoseInformation(const SurfaceSample& surface, double area, cons
     if (!seen.hasPoint() || !(normal.dot(seen.cell->normal()) > normal_agreement)) continue;
     if ((seen.cell->position() - point).squaredNorm() > float(reach * reach)) continue;
     const Eigen::Vector3d lever = point.cast<double>() - pivot;
-    pairs_.push_back(
-        {rowOf(lever, normal.cast<double>(), radius), rowOf(lever, seen.cell->normal().cast<double>(), radius)});
+    pairs_.push_back({rowOf(lever, normal.cast<double>(), radius),
+                      rowOf(lever, seen.cell->normal().cast<double>(), radius), surface.point(i),
+                      double(normal.dot(seen.cell->position() - point))});
     products += pairs_.back().of_model * pairs_.back().of_scene.transpose();
   }
   patches_ = std::min(1.0, area / independent_area);
@@ -82,13 +86,29 @@ Vector6d PoseInformation::standardErrors(const Matrix6d& axes) const {
   return squares.cwiseSqrt();
 }
 
-Matrix6d poseCovariance(const PoseInformation& information, double noise, const Eigen::Isometry3d& T_scene_model,
+double PoseInformation::depthVariance() const {
+  std::map<std::array<int, 3>, Vector6d> pulls;
+  double alone = 0;
+  for (const Pair& pair : pairs_) {
+    const Eigen::Array3i cube = (pair.place / alike_within).array().floor().cast<int>();
+    pulls.try_emplace({cube[0], cube[1], cube[2]}, Vector6d::Zero()).first->second += pair.distance * pair.of_model;
+    alone += pair.of_model.dot(pair.of_scene);
+  }
+  double together = 0;
+  for (const auto& [cube, pull] : pulls) together += pull.squaredNorm();
+  // The pose was fitted to the same distances, which takes six of them.
+  const double count = std::max(7.0, double(pulls.size()));
+  const double variance = alone > 0 ? together / alone * count / (count - 6) : 0;
+  return std::max(patches_ * variance, common_error * common_error);
+}
+
+Matrix6d poseCovariance(const PoseInformation& information, const Eigen::Isometry3d& T_scene_model,
                         const Eigen::Vector3d& center, double size) {
   const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(information.matrix);
   const Vector6d doubt = information.standardErrors(solver.eigenvectors());
   const Vector6d sure = (solver.eigenvalues() - sure_above * doubt).cwiseMax(0);
   const Matrix6d known =
-      solver.eigenvectors() * sure.asDiagonal() * solver.eigenvectors().transpose() / (noise * noise);
+      solver.eigenvectors() * sure.asDiagonal() * solver.eigenvectors().transpose() / information.depthVariance();
   Vector6d possible;
   possible << Eigen::Vector3d::Constant(any_turn * information.radius), Eigen::Vector3d::Constant(size);
   const Matrix6d covariance = (known + Matrix6d(possible.cwiseAbs2().cwiseInverse().asDiagonal())).inverse() +
