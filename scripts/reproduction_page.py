@@ -142,7 +142,11 @@ def plot_detection(runs, path):
     plot.close(figure)
 
 
-def machine(threads):
+def counted(number, what, plural='s'):
+    return f'{number} {what}{"" if number == 1 else plural}'
+
+
+def machine(processes, threads):
     model, memory = 'unknown processor', ''
     with open('/proc/cpuinfo', encoding='utf-8') as file:
         models = [line.split(':', 1)[1].strip() for line in file if line.startswith('model name')]
@@ -150,7 +154,7 @@ def machine(threads):
         model = models[0]
     with open('/proc/meminfo', encoding='utf-8') as file:
         memory = f'{int(file.readline().split()[1]) / 2 ** 20:.0f} GiB'
-    return f'{model}, {os.cpu_count()} cores, {memory}; {threads} thread{"" if threads == 1 else "s"} a run.'
+    return f'{model}, {os.cpu_count()} cores, {memory}; {counted(processes, "process", "es")} of {counted(threads, "thread")} a run.'
 
 
 def by_hand(path):
@@ -162,7 +166,7 @@ def by_hand(path):
     return mark + rest
 
 
-def write(path, runs, pictures, threads):
+def write(path, runs, pictures, processes, threads):
     """@param runs [(name of the data set, job, result)] @param pictures [(name of the data set, file)]"""
     folder = os.path.dirname(os.path.abspath(path))
     by_command = {command: [run for run in runs if run[1].command == command]
@@ -170,7 +174,7 @@ def write(path, runs, pictures, threads):
     text = ['# Figures of every method\n\nHow to evaluate, data set files and measures: [evaluate.md](evaluate.md). Written by '
             '`scripts/reproduce`, which runs all of it again:\n\n```\n'
             'scripts/reproduce --data $SKS_DATA [D.yaml ...]\n```\n\n'
-            f'Machine: {machine(threads)} Times are wall-clock times: on a machine with other work they say little.\n'
+            f'Machine: {machine(processes, threads)} Times are wall-clock times: on a machine with other work they say little.\n'
             'Settings of the methods and how they were found: [baselines.md](baselines.md).\n'
             'The paper\'s data sets: RandomViews and Kinect of UniBo; its times are those of an i7-2760QM.\n']
     if by_command['evaluate']:

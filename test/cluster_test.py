@@ -16,7 +16,10 @@ import tempfile
 import time
 import unittest
 
+import yaml
+
 SKS = os.path.abspath(sys.argv[1])
+REPRODUCE = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), 'scripts', 'reproduce')
 SCENES = 5
 SECONDS = 240  # most that one run may take
 FAST = ['--set', 'threads=1', '--set', 'keypoints.grid_size=0.03']
@@ -98,6 +101,29 @@ class ClusterTest(unittest.TestCase):
             other = self.path('set%d' % processes)
             self.simulate(other, processes)
             self.assertEqual(checksums(other), self.checksums)
+
+    @unittest.skipIf(os.cpu_count() < 2, 'mpirun has no place for two processes here')
+    def test_reproduces_the_same_figures(self):
+        with open(self.set + '/dataset.yaml') as file:
+            data_set = yaml.safe_load(file)
+        data_set['scenes'] = data_set['scenes'][:1]
+        one_scene = os.path.join(self.set, 'one.yaml')
+        with open(one_scene, 'w') as file:
+            yaml.safe_dump(data_set, file)
+        self.addCleanup(os.remove, one_scene)
+        figures = {}
+        for processes in (1, 2):
+            results = self.path('results%d' % processes)
+            done = subprocess.run([REPRODUCE, one_scene, '--sks', SKS, '--methods', 'sks', '--processes', str(processes),
+                                   '--threads', '1', '--results', results, '--output', results + '/page.md'],
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True, timeout=SECONDS,
+                                  env={key: value for key, value in os.environ.items() if key != 'SKS_DATA'})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            figures[processes] = {os.path.basename(path): without_times(json.loads(content(path)))
+                                  for path in glob.glob(results + '/*.json')}
+            self.assertIn('; %d process' % processes, content(results + '/page.md').decode())
+        self.assertGreaterEqual(len(figures[1]), 4)  # without and with selection
+        self.assertEqual(figures[1], figures[2])
 
     def test_trains_the_same_codebook(self):
         files = {}
