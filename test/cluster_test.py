@@ -102,7 +102,6 @@ class ClusterTest(unittest.TestCase):
             self.simulate(other, processes)
             self.assertEqual(checksums(other), self.checksums)
 
-    @unittest.skipIf(os.cpu_count() < 2, 'mpirun has no place for two processes here')
     def test_reproduces_the_same_figures(self):
         with open(self.set + '/dataset.yaml') as file:
             data_set = yaml.safe_load(file)
