@@ -9,7 +9,6 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <future>
 #include <map>
 #include <memory>
 #include <optional>
@@ -19,6 +18,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <sks_detector/background_search.hpp>
 #include <sks_detector/simulation/camera_presets.hpp>
 #include <sks_detector/simulation/training_views.hpp>
 #include <sks_detector/tracker.hpp>
@@ -209,7 +209,7 @@ void follow(benchmark::State& state, bool fixed_frame) {
   Settings settings;
   settings.threads = int(state.range(0));
   const auto codebook = std::make_shared<const Codebook>(train(samples, {}, "household"));
-  const Detector detector(codebook, settings);
+  const auto detector = std::make_shared<const Detector>(codebook, settings);
   SceneOptions scene;
   scene.distractors = 2;
   scene.region = 0.25;
@@ -223,12 +223,11 @@ void follow(benchmark::State& state, bool fixed_frame) {
   for (std::size_t i = 0; i < sequence.size(); ++i) frames.push_back(sequence.at(i));
 
   for (auto _ : state) {
-    Tracker tracker(detector);
+    Tracker tracker(*detector);
     TrackingRecord record(models);
     std::vector<double> times, cpu_times;
     std::vector<std::vector<TrackedObject>> all_told;
-    std::future<DetectionResult> search;
-    CloudView searched;
+    BackgroundSearch search;
     bool searched_once = false;
     double searching = 0;
     const Clock::time_point begin = Clock::now();
@@ -239,20 +238,18 @@ void follow(benchmark::State& state, bool fixed_frame) {
       const double cpu_start = threadTime();
       CloudView view{frame.stamp, {}};
       if (fixed_frame) view.T_fixed_cloud = frame.scene.T_table_camera;
-      if (search.valid() && search.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
-        tracker.take(search.get(), searched);
+      if (search.finished()) {
+        search.giveTo(tracker);
         searched_once = true;
       }
       std::vector<TrackedObject> told = tracker.follow(frame.scene.view.cloud, view);
       times.push_back(std::chrono::duration<double, std::milli>(Clock::now() - start).count());
       cpu_times.push_back(threadTime() - cpu_start);
-      if (!search.valid() && tracker.wantsDetection(frame.stamp)) {
-        searched = view;
-        search = std::async(std::launch::async, [&detector, &frame, occupied = tracker.occupied()] {
-          return detector.detect(frame.scene.view.cloud, nullptr, occupied);
-        });
+      if (!search.started() && tracker.wantsDetection(frame.stamp)) {
+        const std::shared_ptr<const Cloud> cloud(std::shared_ptr<void>(), &frame.scene.view.cloud);  // kept by frames
+        search.start(detector, cloud, view, tracker.occupied());
       }
-      searching += search.valid() ? 1 : 0;
+      searching += search.started() ? 1 : 0;
       told.erase(std::remove_if(told.begin(), told.end(),
                                 [&](const auto& o) { return o.detection.score < settings.detection.threshold; }),
                  told.end());
@@ -260,7 +257,7 @@ void follow(benchmark::State& state, bool fixed_frame) {
       all_told.push_back(std::move(told));
     }
     for (std::size_t i = compared / 2; i < frames.size(); i += compared) {
-      const DetectionResult whole = detector.detect(frames[i].scene.view.cloud);
+      const DetectionResult whole = detector->detect(frames[i].scene.view.cloud);
       record.compare(frames[i], all_told[i], whole.above(settings.detection.threshold));
     }
     state.counters["p50_ms"] = quantile(times, 0.5);

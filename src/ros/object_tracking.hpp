@@ -3,12 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
+#include <sks_detector/background_search.hpp>
 #include <sks_detector/cloud.hpp>
 #include <sks_detector/detector.hpp>
 #include <sks_detector/tracker.hpp>
@@ -37,15 +37,13 @@ public:
 private:
   void begin(const std::shared_ptr<const sks::Detector>& detector);
   void takeFinishedSearch();
-  void startSearch(const std::shared_ptr<const sks::Cloud>& cloud, const sks::CloudView& view);
   void note();
 
   std::shared_ptr<const sks::Detector> detector_;
   std::optional<sks::Tracker> tracker_;
   std::uint32_t next_id_ = 1;
   sks::TrackingCounts earlier_;  // of trackers before this one
-  std::future<sks::DetectionResult> search_;
-  sks::CloudView searched_;
+  sks::BackgroundSearch search_;
 
   mutable std::mutex mutex_;  // guards what follows
   Summary summary_;
