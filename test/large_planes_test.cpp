@@ -28,6 +28,20 @@ TEST(LargePlanes, FindsTableAndWallWithTheirExtents) {
   EXPECT_LT(planeExtentAt(planes, {0.3f, 0, 1.0f}, to_camera), 0.1f);
 }
 
+TEST(LargePlanes, AreNoLargerThanTheSidesOfThingsThatTheyConsistOf) {
+  const Shape side{{Solid::Shape::box, {0, 0, 0}, {0.05f, 0.05f, 0.01f}}};
+  const Shape wall{{Solid::Shape::box, {0, 0, 0}, {0.6f, 0.4f, 0.01f}}};
+  std::vector<Placed> things{{wall, poseOf(0, {0, 0, 1}, {0, 0, 1.6f})}};
+  for (const float x : {-0.2f, 0.0f, 0.2f}) {
+    for (const float y : {-0.15f, 0.15f}) things.push_back({side, poseOf(0, {0, 0, 1}, {x, y, 1.0f})});
+  }
+  const auto planes = findLargePlanes(prepared(view(things, 0.0025f, 400, 300)));
+  ASSERT_GE(planes.size(), 2u);
+  const Eigen::Vector3f to_camera(0, 0, -1);
+  EXPECT_NEAR(planeExtentAt(planes, {0.2f, 0.15f, 0.99f}, to_camera), 0.1f, 0.03f);
+  EXPECT_GT(planeExtentAt(planes, {0.4f, 0.2f, 1.59f}, to_camera), 0.5f);
+}
+
 TEST(LargePlanes, OfRoundThingsAreSmall) {
   for (const LargePlane& plane : findLargePlanes(prepared(sphere(0.15f, 0.004f, {0, 0, 1})))) {
     EXPECT_LT(plane.extent, 0.15f);

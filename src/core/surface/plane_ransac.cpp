@@ -75,6 +75,10 @@ bool InfinitePlane::contains(const Eigen::Vector3f& point, const Eigen::Vector3f
   return std::abs(normal.dot(point) - offset) < tolerance.distance && normal.dot(point_normal) > tolerance.agreement;
 }
 
+float PlaneFit::smallerExtent() const {
+  return float(std::sqrt(12 * variances[1]));
+}
+
 PlaneFit leastSquaresPlane(const std::vector<Eigen::Vector3f>& points) {
   PlaneFit fit;
   for (const Eigen::Vector3f& p : points) fit.mean += p.cast<double>();
@@ -102,7 +106,6 @@ SupportedPlane mostSupportedPlane(const OrientedPoints& points, const PlaneToler
     if (normal.dot(found.plane.normal) < 0) normal = -normal;
     found.plane.normal = normal;
     found.plane.offset = normal.dot(fit.mean.cast<float>());
-    found.extent = float(std::sqrt(12 * fit.variances[1]));  // of a rectangle with that variance
     found.members = membersOf(found.plane, tolerance, points);
   }
   return found;

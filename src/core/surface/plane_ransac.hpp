@@ -39,7 +39,6 @@ struct InfinitePlane {
 struct SupportedPlane {
   InfinitePlane plane;
   std::vector<std::uint32_t> members;  ///< ascending
-  float extent = 0;                    ///< the smaller one of the members' extents within the plane [m]
 };
 
 /// The least-squares plane of points.
@@ -47,6 +46,9 @@ struct PlaneFit {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();     ///< of either sign
   Eigen::Vector3d variances = Eigen::Vector3d::Zero();  ///< along the principal axes, ascending [m^2]
+
+  /// The shorter edge of a rectangle with these variances [m].
+  float smallerExtent() const;
 };
 
 /// @param points at least one
