@@ -61,7 +61,7 @@ void organizedNormals(benchmark::State& state) {
   std::vector<Eigen::Vector3f> ours;
   compare(
       state, [&] { theirs = pclNormals(pcl_cloud, settings.normal_radius); },
-      [&] { imageNormals(usable, settings, threads, ours); }, 25);
+      [&] { imageNormals(usable, *fitPinhole(usable, threads), 1, settings, threads, ours); }, 25);
   Agreement agreement;
   for (std::size_t i = 0; i < ours.size(); ++i) agreement.add(ours[i], theirs[usable.pixels[i]].getNormalVector3fMap());
   agreement.report(state);

@@ -12,6 +12,7 @@
 #include "core/keypoints/sparse_selection.hpp"
 #include "core/surface/image_normals.hpp"
 #include "core/surface/normals.hpp"
+#include "core/surface/pinhole_fit.hpp"
 #include "core/surface/sanitize.hpp"
 #include "core/verification/pose_evidence.hpp"
 #include "core/verification/projective_refinement.hpp"
@@ -66,7 +67,8 @@ TEST(Allocations, NormalsNeedNone) {
   sks::Surface surface = sks::makeSurface(cloud, 0.01);
   EXPECT_EQ(allocationsOf([&] { sks::estimateNormals(surface, {}, sks::Orientation::sensor, 1); }), 0u);
   std::vector<Eigen::Vector3f> normals;
-  EXPECT_EQ(allocationsOf([&] { EXPECT_TRUE(sks::imageNormals(cloud, {}, 1, normals)); }), 0u);
+  EXPECT_EQ(
+      allocationsOf([&] { EXPECT_TRUE(sks::imageNormals(cloud, *sks::fitPinhole(cloud, 1), 1, {}, 1, normals)); }), 0u);
 }
 
 TEST(Allocations, SelectionNeedsThoseOfItsResultOnly) {

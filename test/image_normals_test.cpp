@@ -22,9 +22,9 @@ sks::Cloud objectImage() {
   return cloud;
 }
 
-std::vector<Eigen::Vector3f> normalsOf(const sks::Cloud& cloud, int threads = 1) {
+std::vector<Eigen::Vector3f> normalsOf(const sks::Cloud& cloud, int threads = 1, std::uint32_t step = 1) {
   std::vector<Eigen::Vector3f> normals;
-  EXPECT_TRUE(sks::imageNormals(cloud, {}, threads, normals));
+  EXPECT_TRUE(sks::imageNormals(cloud, *sks::fitPinhole(cloud, threads), step, {}, threads, normals));
   return normals;
 }
 
@@ -58,14 +58,31 @@ TEST(ImageNormals, AreTheSameForAnyThreads) {
   }
 }
 
+TEST(ImageNormals, OfEveryThirdRowAndColumnUseAllNeighbors) {
+  const sks::Cloud cloud = sks::sanitize(objectImage(), {});
+  const auto all = normalsOf(cloud), few = normalsOf(cloud, 2, 3);
+  std::size_t k = 0, known = 0, same = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.pixels[i] / cloud.columns % 3 != 0 || cloud.pixels[i] % cloud.columns % 3 != 0) continue;
+    ASSERT_LT(k, few.size());
+    const Eigen::Vector3f& normal = few[k++];
+    ASSERT_EQ(normal.allFinite(), all[i].allFinite()) << i;
+    if (!normal.allFinite()) continue;
+    ++known;
+    same += std::abs(normal.dot(all[i])) > 0.9999f;
+  }
+  EXPECT_EQ(k, few.size());
+  EXPECT_GT(known, 300u);
+  EXPECT_GE(same + 2, known);  // of few neighbours in one line any rounding decides
+}
+
 TEST(ImageNormals, AreLeftToTheGridWhereThePixelsAreNoCamerasInTheFrameOfThePoints) {
-  std::vector<Eigen::Vector3f> normals;
   const sks::Cloud turned = sks::test::transformed(objectImage(), sks::test::poseOf(40, {1, 0, 0}, {0, 0, 0}));
-  EXPECT_FALSE(sks::imageNormals(sks::sanitize(turned, {}), {}, 1, normals));
+  EXPECT_FALSE(sks::fitPinhole(sks::sanitize(turned, {}), 1));
   sks::Cloud unorganized = objectImage();
   unorganized.width *= unorganized.height;
   unorganized.height = 1;
-  EXPECT_FALSE(sks::imageNormals(sks::sanitize(unorganized, {}), {}, 1, normals));
+  EXPECT_FALSE(sks::fitPinhole(sks::sanitize(unorganized, {}), 1));
 }
 
 TEST(PinholeFit, FindsTheCamera) {

@@ -30,6 +30,7 @@ struct Surface : PointGrid {
   std::vector<std::array<float, 3>> color;  ///< CIELab, scaled: L / 100, a / 120, b / 120; empty without colour
   Eigen::Vector3f sensor_origin = Eigen::Vector3f::Zero();  ///< [m]
   Orientation orientation = Orientation::sensor;            ///< of the normals, once estimated
+  float step = 1;  ///< between the rows and columns of the image that prepareScene() kept
 };
 
 /// Sorts the points of a sanitized cloud and converts their colours; normals are left empty (see estimateNormals()).
@@ -38,6 +39,10 @@ Surface makeSurface(const Cloud& cloud, double cell, int threads = 1);
 
 /// A sanitized cloud, thinned, sorted and with normals: the input of every later stage.
 Surface prepareSurface(const Cloud& sanitized, const SurfaceSettings& settings, Orientation orientation, int threads);
+
+/// The same of a scene. An image is thinned to `surface.spacing_at_1m` after its normals were estimated from all
+/// points: every n-th row and column is kept, and most later stages take half the time.
+Surface prepareScene(const Cloud& sanitized, const SurfaceSettings& settings, int threads);
 
 /// One point per occupied cube of the given edge: the one nearest to the centroid of the cube's points. The same for
 /// any number of threads.

@@ -6,7 +6,7 @@
 namespace sks {
 
 Keypoints thinnedByRange(const Keypoints& keypoints, const Surface& scene, double normal_radius) {
-  const double spacing = double(angularSpacing(scene, float(normal_radius)));
+  const double spacing = double(sensorSpacing(scene, float(normal_radius)));
   Keypoints kept;
   double owed = 0;  // keypoints lie row by row, so what one of them is short of counts for the next one
   for (std::size_t i = 0; i < keypoints.size(); ++i) {

@@ -141,7 +141,7 @@ DetectionResult Detector::detect(const Cloud& cloud, Inspection* inspection,
 
   // Section 3.1: usable points, thinned, with normals towards the sensor.
   const Cloud usable = clock.book(&Times::sanitize, usableCloud(cloud, Orientation::sensor, *codebook_, settings_));
-  scene.surface = clock.book(&Times::normals, prepareSurface(usable, settings_.surface, Orientation::sensor, threads));
+  scene.surface = clock.book(&Times::normals, prepareScene(usable, settings_.surface, threads));
   // Beyond the paper: tables and walls, which confirm no pose.
   scene.planes = clock.book(&Times::verification, planesOf(scene.surface, settings_));
   // Section 3.1, a grid of keypoints; section 4, those of highest Gaussian curvature K = kappa_1 kappa_2.

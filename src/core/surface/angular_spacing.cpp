@@ -28,6 +28,10 @@ float angularSpacing(const Surface& scene, float radius) {
   return angles[angles.size() / 2];
 }
 
+float sensorSpacing(const Surface& scene, float radius) {
+  return angularSpacing(scene, radius) / scene.step;
+}
+
 double samplingAt(double range, double spacing, double normal_radius) {
   const double apart = range * spacing;
   return apart > 0 ? std::min(1.0, normal_radius / (well_sampled * apart)) : 1;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Normals of organised clouds. Each SIMD lane is one pixel; its neighbours are read from the image, shifted by each
-// offset at which a point within the radius can appear.
+// offset at which a point within the radius can appear. Where only every n-th column is wanted, those n columns apart
+// lie side by side, so that they are still read together.
 #include "core/surface/image_normals.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "core/surface/pinhole_fit.hpp"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/surface/image_normals.cpp"
@@ -24,10 +23,15 @@ namespace sks {
 /// Positions by pixel, NaN where there is none, with a margin on each side.
 struct PositionImage {
   std::vector<float> x, y, z;
-  std::size_t stride = 0;
-  std::size_t margin = 0;
+  std::size_t step = 1;    ///< between columns that lie side by side
+  std::size_t part = 0;    ///< entries of a row for columns that are `step` apart
+  std::size_t margin = 0;  ///< [pixel], a multiple of `step`
 
-  std::size_t at(std::size_t row, std::size_t column) const { return (row + margin) * stride + column + margin; }
+  std::size_t stride() const { return step * part; }
+  std::size_t at(std::size_t row, std::size_t column) const {
+    const std::size_t shifted = column + margin;
+    return (row + margin) * stride() + shifted % step * part + shifted / step;
+  }
 };
 
 /// How far from a point another one within the radius may appear.
@@ -54,12 +58,14 @@ HWY_INLINE float reachOf(hn::Vec<Points> x, hn::Vec<Points> y, hn::Vec<Points> z
   return window.focal * window.radius * largest * (1 + 1e-3f) + window.extra;
 }
 
+/// Of every `step`-th column of a row.
 void rowNormalsImpl(const PositionImage& image, std::size_t row, std::size_t columns, const WindowSize& window,
                     int min_neighbors, Eigen::Vector3f* normals) {
   const Points d;
   Moments moments;
   Fits fits;
-  for (std::size_t column = 0; column < columns; column += hn::Lanes(d)) {
+  const int step = int(image.step);
+  for (std::size_t column = 0; column < columns; column += image.step * hn::Lanes(d)) {
     const std::size_t here = image.at(row, column);
     const auto x = hn::LoadU(d, &image.x[here]), y = hn::LoadU(d, &image.y[here]), z = hn::LoadU(d, &image.z[here]);
     if (hn::AllFalse(d, hn::Eq(z, z))) continue;
@@ -67,10 +73,14 @@ void rowNormalsImpl(const PositionImage& image, std::size_t row, std::size_t col
     MomentSums sums(x, y, z, window.radius);
     for (int down = -int(reach); down <= int(reach); ++down) {
       const int half = int(std::sqrt(reach * reach - float(down * down)));
-      const std::size_t middle = std::size_t(std::ptrdiff_t(here) + down * std::ptrdiff_t(image.stride));
-      HWY_UNROLL(4)
-      for (std::size_t i = middle - std::size_t(half); i <= middle + std::size_t(half); ++i) {
-        sums.add(hn::LoadU(d, &image.x[i]), hn::LoadU(d, &image.y[i]), hn::LoadU(d, &image.z[i]));
+      const std::size_t middle = std::size_t(std::ptrdiff_t(here) + down * std::ptrdiff_t(image.stride()));
+      for (int part = 0; part < step; ++part) {  // columns `part` + k `step` away, from -half to half
+        const std::size_t from = middle + std::size_t(part) * image.part;
+        const std::size_t before = std::size_t((half + part) / step), after = std::size_t((half - part + step) / step);
+        HWY_UNROLL(4)
+        for (std::size_t i = from - before; i < from + after; ++i) {
+          sums.add(hn::LoadU(d, &image.x[i]), hn::LoadU(d, &image.y[i]), hn::LoadU(d, &image.z[i]));
+        }
       }
     }
     sums.store(moments);
@@ -100,10 +110,22 @@ std::size_t firstOfRow(const Cloud& cloud, std::size_t row) {
   return std::size_t(first - cloud.pixels.begin());
 }
 
+/// Among the points whose row and column are multiples of `step`, the first one of each such row, and their number.
+void findFirstOfRows(const Cloud& cloud, std::size_t rows, std::uint32_t step, std::vector<std::size_t>& first) {
+  first.assign(1, 0);
+  for (std::size_t row = 0; row < rows; row += step) {
+    const std::size_t end = firstOfRow(cloud, row + 1);
+    std::size_t count = 0;
+    for (std::size_t i = firstOfRow(cloud, row); i < end; ++i)
+      count += (cloud.pixels[i] - row * cloud.columns) % step == 0;
+    first.push_back(first.back() + count);
+  }
+}
+
 /// Empties line `line` of the image, margins included, and puts in the points of its row.
 void drawLine(const Cloud& cloud, std::size_t line, std::size_t rows, PositionImage& image) {
   for (auto* axis : {&image.x, &image.y, &image.z}) {
-    std::fill_n(axis->begin() + std::ptrdiff_t(line * image.stride), image.stride,
+    std::fill_n(axis->begin() + std::ptrdiff_t(line * image.stride()), image.stride(),
                 std::numeric_limits<float>::quiet_NaN());
   }
   if (line < image.margin || line >= rows + image.margin) return;
@@ -118,33 +140,37 @@ void drawLine(const Cloud& cloud, std::size_t line, std::size_t rows, PositionIm
 
 }  // namespace
 
-bool imageNormals(const Cloud& cloud, const SurfaceSettings& settings, int threads,
-                  std::vector<Eigen::Vector3f>& normals) {
-  const auto camera = fitPinhole(cloud, threads);
-  if (!camera || camera->nearest < 2 * settings.normal_radius) return false;
+bool imageNormals(const Cloud& cloud, const Pinhole& camera, std::uint32_t step, const SurfaceSettings& settings,
+                  int threads, std::vector<Eigen::Vector3f>& normals) {
+  if (camera.nearest < 2 * settings.normal_radius) return false;
   const WindowSize window{float(settings.normal_radius),
-                          float(std::max(std::abs(camera->focal_x), std::abs(camera->focal_y))),
-                          float(2 * camera->deviation)};
+                          float(std::max(std::abs(camera.focal_x), std::abs(camera.focal_y))),
+                          float(2 * camera.deviation)};
   const double margin =
-      1.01 * window.focal * window.radius * camera->widest / (camera->nearest - window.radius) + window.extra;
+      1.01 * window.focal * window.radius * camera.widest / (camera.nearest - window.radius) + window.extra;
   if (margin > max_margin) return false;
 
   thread_local PositionImage kept_image;  // from frame to frame; the other threads see that of this one
   PositionImage& image = kept_image;
   const std::size_t rows = cloud.pixels.back() / cloud.columns + 1;
-  image.margin = std::size_t(margin) + 1;
-  image.stride = cloud.columns + 2 * image.margin + PointGrid::simd_padding;
+  image.step = step;
+  image.margin = (std::size_t(margin) / step + 1) * step;
+  image.part = (cloud.columns + 2 * image.margin) / step + 1 + PointGrid::simd_padding;
   const std::size_t lines = rows + 2 * image.margin;
-  for (auto* axis : {&image.x, &image.y, &image.z}) axis->resize(lines * image.stride);
-  normals.resize(cloud.size());
+  for (auto* axis : {&image.x, &image.y, &image.z}) axis->resize(lines * image.stride());
+  thread_local std::vector<std::size_t> kept_first;
+  std::vector<std::size_t>& first = kept_first;
+  findFirstOfRows(cloud, rows, step, first);
+  const std::size_t wanted = first.size() - 1;
+  normals.resize(first.back());
 #pragma omp parallel num_threads(threads)
   {
 #pragma omp for schedule(static)
     for (std::size_t line = 0; line < lines; ++line) drawLine(cloud, line, rows, image);
 #pragma omp for schedule(dynamic, 4)
-    for (std::size_t row = 0; row < rows; ++row) {
+    for (std::size_t k = 0; k < wanted; ++k) {
       HWY_DYNAMIC_DISPATCH(rowNormalsImpl)
-      (image, row, cloud.columns, window, settings.normal_min_neighbors, normals.data() + firstOfRow(cloud, row));
+      (image, k * step, cloud.columns, window, settings.normal_min_neighbors, normals.data() + first[k]);
     }
   }
   return true;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/surface/image_normals.hpp"
 #include "core/surface/orientation.hpp"
 #include "core/surface/plane_fit.hpp"
 
@@ -21,19 +20,6 @@ void faceSensor(Surface& surface, std::size_t begin, std::size_t end) {
     surface.nx[i] *= side;
     surface.ny[i] *= side;
     surface.nz[i] *= side;
-  }
-}
-
-/// Normals of the points that the surface was made from, in its order.
-void takeNormals(Surface& surface, const std::vector<Eigen::Vector3f>& of_source, int threads) {
-  const std::size_t n = surface.size();
-  for (auto* axis : {&surface.nx, &surface.ny, &surface.nz}) axis->assign(n + PointGrid::simd_padding, 0.0f);
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::size_t i = 0; i < n; ++i) {
-    const Eigen::Vector3f& normal = of_source[surface.source[i]];
-    surface.nx[i] = normal.x();
-    surface.ny[i] = normal.y();
-    surface.nz[i] = normal.z();
   }
 }
 
@@ -54,13 +40,18 @@ void estimateNormals(Surface& surface, const SurfaceSettings& settings, Orientat
   if (orientation == Orientation::outward) orientOutward(surface, threads);
 }
 
-bool takeImageNormals(Surface& surface, const Cloud& sanitized, const SurfaceSettings& settings, int threads) {
-  std::vector<Eigen::Vector3f> normals;
-  if (!imageNormals(sanitized, settings, threads, normals)) return false;
-  takeNormals(surface, normals, threads);
+void takeNormals(Surface& surface, const std::vector<Eigen::Vector3f>& of_source, int threads) {
+  const std::size_t n = surface.size();
   surface.orientation = Orientation::sensor;
-  faceSensor(surface, 0, surface.size());
-  return true;
+  for (auto* axis : {&surface.nx, &surface.ny, &surface.nz}) axis->assign(n + PointGrid::simd_padding, 0.0f);
+#pragma omp parallel for schedule(static) num_threads(threads)
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector3f& normal = of_source[surface.source[i]];
+    surface.nx[i] = normal.x();
+    surface.ny[i] = normal.y();
+    surface.nz[i] = normal.z();
+  }
+  faceSensor(surface, 0, n);
 }
 
 }  // namespace sks

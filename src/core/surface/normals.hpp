@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <sks_detector/cloud.hpp>
+#include <vector>
+
+#include <Eigen/Core>
+
 #include <sks_detector/settings.hpp>
 #include <sks_detector/stages/surface.hpp>
 
@@ -10,8 +13,8 @@ namespace sks {
 /// Estimates and orients the normal at every point. Deterministic for any number of threads.
 void estimateNormals(Surface& surface, const SurfaceSettings& settings, Orientation orientation, int threads);
 
-/// Normals of an organised cloud by windows of its image, turned towards the sensor; what `surface` was made from.
-/// @return false, and nothing is changed, where the cloud is no image of a pinhole camera
-bool takeImageNormals(Surface& surface, const Cloud& sanitized, const SurfaceSettings& settings, int threads);
+/// Gives a surface the normals of the points that it was made from, turned towards the sensor.
+/// @param of_source by the index of PointGrid::source
+void takeNormals(Surface& surface, const std::vector<Eigen::Vector3f>& of_source, int threads);
 
 }  // namespace sks

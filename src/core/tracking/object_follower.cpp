@@ -50,8 +50,9 @@ FollowedObject ObjectFollower::follow(const Cloud& cloud, const Hypothesis& expe
   if (double(crop.cloud.size()) < fewest_in_crop) return followed;
   Surface surface;
   try {
-    surface = prepareSurface(usableCloud(crop.cloud, Orientation::sensor, codebook, settings_), settings_.surface,
-                             Orientation::sensor, 1);
+    const Cloud usable = usableCloud(crop.cloud, Orientation::sensor, codebook, settings_);
+    surface = look == Look::full ? prepareScene(usable, settings_.surface, 1)
+                                 : prepareSurface(usable, settings_.surface, Orientation::sensor, 1);
   } catch (const Error& error) {
     if (error.code() != ErrorCode::bad_data) throw;
     return followed;  // the sensor measured nothing there

@@ -282,7 +282,9 @@ double PoseExaminer::evidenceAt(Hypothesis& hypothesis, PoseEvidence& pose, std:
   pose = examinePose(view, models_.weights.at(hypothesis.view, strideFor(view, most_points)), scene_, settings_,
                      hypothesis.T_scene_model, most_points, search);
   const Eigen::Vector3f center = hypothesis.T_scene_box.translation().cast<float>();
-  return evidenceOf(pose, hypothesis.view, hypothesis.stands, center, hypothesis.density);
+  // Of fewer points beside one of the model the best agrees less well; measured with every second and third row.
+  const double thinned = std::sqrt(double(scene_.surface.step));
+  return thinned * evidenceOf(pose, hypothesis.view, hypothesis.stands, center, hypothesis.density);
 }
 
 /// The object's box in the pose, and the votes for its centre.
@@ -316,7 +318,7 @@ SightLines PoseExaminer::sightLines(const Hypothesis& hypothesis) const {
 /// of the range, and what they are worth together with its root.
 double PoseExaminer::sampling(const Eigen::Vector3f& position) const {
   const double range = double((position - scene_.surface.sensor_origin).norm());
-  return samplingAt(range, double(scene_.range_image.spacing()), settings_.surface.normal_radius);
+  return samplingAt(range, double(scene_.range_image.sensorSpacing()), settings_.surface.normal_radius);
 }
 
 }  // namespace sks

@@ -50,8 +50,9 @@ RangeImage::RangeImage(const Surface& scene, float radius, int threads) {
   }
   if (low_u > high_u) return;
   const Eigen::Vector2f size(high_u - low_u, high_v - low_v);
-  spacing_ = angularSpacing(scene, radius);
-  image.cell = std::max(spacings_per_cell * spacing_, 1e-6f);
+  const float spacing = angularSpacing(scene, radius);
+  sensor_spacing_ = spacing / scene.step;
+  image.cell = std::max(spacings_per_cell * spacing, 1e-6f);
   image.cell = std::max(image.cell, float(std::sqrt(double(size.x()) * size.y() / most_cells)));
   image.cell = std::max(image.cell, float(size.maxCoeff() / most_cells));
   image.u0 = low_u;

@@ -86,8 +86,8 @@ public:
   std::uint32_t pointAt(std::size_t cell) const { return points_[cell]; }
 
   const Projection& projection() const { return projection_; }
-  /// Median angle between neighbouring points of the scene [rad].
-  float spacing() const { return spacing_; }
+  /// Median angle between neighbouring measurements of the sensor, of which the scene may hold only some [rad].
+  float sensorSpacing() const { return sensor_spacing_; }
   /// Row by row.
   const std::vector<Cell>& cells() const { return cells_; }
 
@@ -101,7 +101,7 @@ private:
   }
 
   Projection projection_;
-  float spacing_ = 0;
+  float sensor_spacing_ = 0;
   std::vector<Cell> cells_;
   std::vector<std::uint32_t> points_;  // of the cells
 };
