@@ -48,6 +48,16 @@ TEST(LargePlanes, OfRoundThingsAreSmall) {
   }
 }
 
+TEST(LargePlanes, OfPointsThatAreThereTwiceAreTheSame) {
+  SanitizeSettings keeps_all;
+  keeps_all.remove_duplicates = false;
+  const Cloud once = plane(0.4f, 0.004f);
+  const Surface scene = prepareSurface(sanitize(merged({once, once}), keeps_all), {}, Orientation::sensor, 1);
+  const auto planes = findLargePlanes(scene);
+  ASSERT_EQ(planes.size(), 1u);
+  EXPECT_NEAR(planes[0].extent, 0.4f, 0.05f);
+}
+
 TEST(LargePlanes, OfTinyScenesAreNone) {
   EXPECT_TRUE(findLargePlanes(prepared(plane(0.03f, 0.005f))).empty());
 }

@@ -17,8 +17,8 @@ constexpr PlaneTolerance tolerance{0.012f, 0.9f};
 constexpr std::size_t most_samples = 4000;  // points that planes are sought in
 constexpr std::size_t most_planes = 4;
 constexpr double smallest_share = 0.02;  // of the samples
-constexpr double longest_step =
-    2;  // between samples of one part of a plane, in their mean spacing: random ones connect
+// Between samples of one part of a plane, in their mean spacing: of points at random nearly all connect.
+constexpr double longest_step = 2;
 
 OrientedPoints without(const InfinitePlane& plane, const OrientedPoints& samples) {
   OrientedPoints rest;

@@ -18,8 +18,8 @@ float angularSpacing(const Surface& scene, float radius) {
   std::vector<float> angles;
   for (std::size_t i = 0; i < scene.size(); i += scene.size() / samples + 1) {
     float nearest = radius * radius;
-    scene.forEachNeighbor(scene.point(i), radius, runs, [&](std::uint32_t j, float squared) {
-      if (j != i) nearest = std::min(nearest, squared);
+    scene.forEachNeighbor(scene.point(i), radius, runs, [&](std::uint32_t, float squared) {
+      if (squared > 0) nearest = std::min(nearest, squared);  // not itself, nor one that is there twice
     });
     angles.push_back(std::sqrt(nearest) / std::max((scene.point(i) - scene.sensor_origin).norm(), radius));
   }
