@@ -68,7 +68,7 @@ void JsonOption::write(const nlohmann::json& json) const {
 
 void warn(const std::string& message) {
   if (!leads()) return;
-  std::cerr << "sks: warning: " << shownMessage(message) << std::endl;
+  std::cerr << "sks: warning: " + shownMessage(message) + "\n";  // at once: other processes write there too
 }
 
 void print(const std::string& text) {

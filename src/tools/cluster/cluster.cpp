@@ -40,7 +40,7 @@ int launchedRank() {
 }
 
 void say(const std::string& message) {
-  std::cerr << "sks: " << shownMessage(message) << std::endl;
+  std::cerr << "sks: " + shownMessage(message) + "\n";  // at once: mpirun and other processes write there too
 }
 
 }  // namespace
