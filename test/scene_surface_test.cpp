@@ -75,6 +75,21 @@ TEST(SceneSurface, OfAListOfPointsKeepsAll) {
   EXPECT_EQ(scene(asList(image()), 2 * pixel).x, scene(asList(image()), 0).x);
 }
 
+TEST(SceneSurface, OfAnImageThatWasEnlargedKeepsAll) {
+  const Cloud small = image();
+  constexpr std::uint32_t times = 8;
+  Cloud large;
+  large.width = times * small.width, large.height = times * small.height;
+  for (std::uint32_t row = 0; row < large.height; ++row) {
+    for (std::uint32_t column = 0; column < large.width; ++column) {
+      const std::size_t from = std::size_t(row / times) * small.width + column / times;
+      large.points.push_back(small.points[from]);
+      large.colors.push_back(small.colors[from]);
+    }
+  }
+  EXPECT_EQ(scene(large, 2 * pixel).size(), scene(small, 0).size());
+}
+
 TEST(SceneSurface, KeepsWhatTheSensorMeasuredNoMoreDensely) {
   const Surface all = scene(image(), 0);
   EXPECT_EQ(scene(image(), 1.2 * pixel).size(), all.size());

@@ -30,6 +30,7 @@ Eigen::AlignedBox3f boundsOf(const std::vector<Eigen::Vector3f>& points, int thr
 
 PointGrid::Rows rowsIn(const Eigen::AlignedBox3f& bounds, double cell) {
   const Eigen::Vector2d extent = bounds.sizes().tail<2>().cast<double>();
+  cell = std::max(cell, double(least_width));  // twice 0 stays 0
   while ((extent.x() / cell + 1) * (extent.y() / cell + 1) > max_rows) cell *= 2;
 
   PointGrid::Rows rows;

@@ -47,6 +47,14 @@ double nearRange(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector
   return double(*tenth);
 }
 
+/// Whether most points of an image have their neighbour in the next column: every n-th pixel then holds every n-th
+/// point. Not so where an image was enlarged, or has the pixels of another camera.
+bool isDense(const Cloud& image) {
+  std::size_t neighbors = 0;
+  for (std::size_t i = 1; i < image.pixels.size(); ++i) neighbors += image.pixels[i] - image.pixels[i - 1] == 1;
+  return 2 * neighbors > image.pixels.size();
+}
+
 /// Between measurements that are kept, in their spacing. @param spacing of the sensor [rad]
 std::uint32_t stepFor(const Cloud& scene, double spacing, const SurfaceSettings& settings) {
   constexpr double least_range = 1, longest = 64;  // [m], measurements
@@ -75,7 +83,7 @@ std::optional<Surface> surfaceOfImage(const Cloud& sanitized, const SurfaceSetti
   const std::optional<Pinhole> camera = fitPinhole(sanitized, threads);
   if (!camera) return std::nullopt;
   const double focal = std::max(std::abs(camera->focal_x), std::abs(camera->focal_y));
-  const std::uint32_t step = thins ? stepFor(sanitized, 1 / focal, settings) : 1;
+  const std::uint32_t step = thins && isDense(sanitized) ? stepFor(sanitized, 1 / focal, settings) : 1;
   std::vector<Eigen::Vector3f> normals;
   if (!imageNormals(sanitized, *camera, step, settings, threads, normals)) return std::nullopt;
   Surface surface = makeSurface(step > 1 ? everyPixel(sanitized, step) : sanitized, cellFor(settings), threads);
