@@ -44,7 +44,7 @@ def objects(axes, growth):
         scores[name] = [row['scores'].get(name, {}).get('f1') for row in rows]
     for number, (name, score) in enumerate(growth['alone'].items()):
         axes[2].axhline(score['f1'], linestyle=':', color=f'C{number}', label=f'{name}, its objects alone')
-    draw(axes[2], counts, scores, ylabel='F1', ylim=(0, 1), title='accuracy')
+    draw(axes[2], counts, scores, ylabel='F1', ylim=(0, 1.05), title='accuracy')
     for panel in axes:
         panel.set_xlabel('objects')
 
