@@ -164,6 +164,25 @@ TEST(Detector, ThreeCopiesAreThreeDetections) {
   }
 }
 
+TEST(Detector, FindsTheSameInAThinnedImageWithEvidenceOfTheSameSize) {
+  sks::Settings all_points, half_the_rows;
+  all_points.surface.spacing_at_1m = 0;
+  half_the_rows.surface.spacing_at_1m = 0.005;
+  const auto all = sks::Detector(twoObjects(), all_points).detect(clutteredScene());
+  const auto few = sks::Detector(twoObjects(), half_the_rows).detect(clutteredScene());
+  EXPECT_NEAR(double(all.counts.points) / double(few.counts.points), 4, 0.2);
+  const auto a = all.above(0.5), b = few.above(0.5);
+  ASSERT_EQ(a.size(), 2u);
+  ASSERT_EQ(b.size(), 2u);
+  for (const auto& detection : b) {
+    const auto same =
+        std::find_if(a.begin(), a.end(), [&](const auto& other) { return other.object == detection.object; });
+    ASSERT_NE(same, a.end());
+    EXPECT_LT((same->position() - detection.position()).norm(), 0.003);
+    EXPECT_NEAR(detection.evidence / same->evidence, 1, 0.35);
+  }
+}
+
 // Trap 7: a score does not depend on what else there is in the scene, but for the width of the range image's cells.
 TEST(Detector, ScoreIsTheSameWhateverElseIsInTheScene) {
   sks::Settings settings;
