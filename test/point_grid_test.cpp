@@ -106,12 +106,12 @@ TEST(PointGrid, IdenticalPointsAreAllFoundInTheirOrder) {
   for (std::uint32_t i = 0; i < 50; ++i) EXPECT_EQ(grid.source[i], i);
 }
 
-/// Places at which sizes, buckets or rows may overflow, or in which all points share one of them.
 TEST(PointGrid, WithoutACellHasTheSameNeighbors) {
   const GridPoints points{{0, 0, 0}, {0, 0.1f, 0.2f}, {0.3f, 0, 0.2f}, {0.31f, 0, 0.2f}};
   expectSameNeighbors(points, 0, points, 0.05f);
 }
 
+/// Places at which sizes, buckets or rows may overflow, or in which all points share one of them.
 TEST(PointGrid, StandsAnyPlacesForAnyNumberOfThreads) {
   std::vector<GridPoints> clouds(6);
   for (int i = 0; i < 3000; ++i) {

@@ -101,9 +101,8 @@ struct SurfaceSettings {
     v(s.spacing_at_1m, "spacing_at_1m", Range{0, 0.1}, "m",
       "a scene that is an image of a camera is thinned, once its normals are estimated from all points, to about this "
       "distance between points at a range of 1 m, or where nine tenths of it are farther, at that range; larger: "
-      "faster, "
-      "but small, thin and distant objects are lost; 0, or a sensor that measures no more densely: all points are "
-      "kept");
+      "faster, but small, thin and distant objects are lost; 0, or a sensor that measures no more densely: all points "
+      "are kept");
     v(s.normal_radius, "normal_radius", Range{0.0005, 0.2}, "m",
       "a normal is estimated from the points within this radius; larger: less disturbed by sensor noise, but edges and "
       "small details become blurred",
