@@ -15,39 +15,47 @@ import support
 import synthetic
 from sks_detector.msg import Status, TrainAction, TrainGoal
 
-LONGEST = rospy.Duration(4 * support.PATIENCE)  # trainings take what others leave of the processor
+LONGEST = 4 * support.PATIENCE  # [s] trainings take what others leave of the processor
+
+
+class Goal:
+    """A goal that is followed. (actionlib.SimpleActionClient loses an answer that arrives before its send_goal returns,
+    as that of a refused goal can.)"""
+
+    def __init__(self, client, feedback, **fields):
+        self.done = threading.Event()
+        self.handle = client.send_goal(TrainGoal(**fields), self.follow, lambda handle, message: feedback(message))
+
+    def follow(self, handle):
+        if handle.get_comm_state() == actionlib.CommState.DONE:
+            self.done.set()
 
 
 class TrainActionTest(services_support.ServicesTest):
     def setUp(self):
         self.old = self.succeed("load_codebook", "synthetic.sks").codebook
         self.feedback = []
-        self.client = self.new_client()
+        self.client = actionlib.ActionClient("/detector/train_action", TrainAction)
+        self.assertTrue(self.client.wait_for_server(rospy.Duration(support.PATIENCE)))
 
     def tearDown(self):
         super().tearDown()
         self.node.call("cancel_training")
         self.wait_for_status(lambda s: s.state != Status.TRAINING, "the end of the training")
 
-    def new_client(self):
-        client = actionlib.SimpleActionClient("/detector/train_action", TrainAction)
-        self.assertTrue(client.wait_for_server(rospy.Duration(support.PATIENCE)))
-        return client
-
-    def start(self, client=None, **fields):
-        (client or self.client).send_goal(TrainGoal(**fields),
-                                          feedback_cb=lambda f: self.feedback.append((time.monotonic(), f)))
+    def start(self, **fields):
+        return Goal(self.client, lambda f: self.feedback.append((time.monotonic(), f)), **fields)
 
     def start_slow(self, **fields):
         self.write_slow_dataset()
-        self.start(dataset="slow.yaml", settings=["threads=1"], **fields)
+        goal = self.start(dataset="slow.yaml", settings=["threads=1"], **fields)
         support.wait_for(lambda: any(f.fraction > 0 for _, f in self.feedback), "a training's progress")
+        return goal
 
-    def outcome(self, client=None):
-        """The state of the goal in the end, and its result."""
-        client = client or self.client
-        self.assertTrue(client.wait_for_result(LONGEST), "the action has no result")
-        return client.get_state(), client.get_result()
+    def outcome(self, goal):
+        """The state of the goal in the end, its result and its text."""
+        self.assertTrue(goal.done.wait(LONGEST), "the action has no result")
+        return goal.handle.get_goal_status(), goal.handle.get_result(), goal.handle.get_goal_status_text()
 
     def expect_old_codebook(self):
         self.assertEqual(self.succeed("info").codebook, self.old)
@@ -56,8 +64,8 @@ class TrainActionTest(services_support.ServicesTest):
 
     def test_trains_saves_and_swaps_in_with_feedback(self):
         self.write_slow_dataset("some.yaml", 200)
-        self.start(dataset="some.yaml", name="toys", output="action/toys.sks", settings=["threads=1"])
-        state, result = self.outcome()
+        state, result, text = self.outcome(
+            self.start(dataset="some.yaml", name="toys", output="action/toys.sks", settings=["threads=1"]))
         self.assertEqual(state, GoalStatus.SUCCEEDED, result)
         self.assertTrue(result.success)
         self.assertRegex(result.codebook, r"^toys \([0-9a-f]{8}\)$")
@@ -65,7 +73,7 @@ class TrainActionTest(services_support.ServicesTest):
         self.assertGreater(result.words, 50)
         self.assertGreater(result.seconds, 0)
         self.assertIn("detecting with " + result.codebook, result.message)
-        self.assertEqual(self.client.get_goal_status_text(), result.message)
+        self.assertEqual(text, result.message)
         info = self.succeed("info")
         self.assertEqual(info.codebook, result.codebook)
         self.assertEqual(info.codebook_file, os.path.join(self.node.codebooks, "action/toys.sks"))
@@ -80,40 +88,37 @@ class TrainActionTest(services_support.ServicesTest):
         self.assertLessEqual(len(texts), 2 + 4 * seconds, "a few a second")
 
     def test_preemption_cancels_and_keeps_the_old_codebook(self):
-        self.start_slow(output="preempted.sks")
-        self.client.cancel_goal()
-        state, result = self.outcome()
+        goal = self.start_slow(output="preempted.sks")
+        goal.handle.cancel()
+        state, result, _ = self.outcome(goal)
         self.assertEqual(state, GoalStatus.PREEMPTED)
         self.assertFalse(result.success)
         self.assertRegex(result.message, r"training was cancelled after \d+ of 1000")
         self.assertNotIn("preempted.sks", os.listdir(self.node.codebooks))
         self.expect_old_codebook()
         # and the next goal is taken
-        self.start(dataset="synthetic.yaml")
-        self.assertEqual(self.outcome()[0], GoalStatus.SUCCEEDED)
+        self.assertEqual(self.outcome(self.start(dataset="synthetic.yaml"))[0], GoalStatus.SUCCEEDED)
 
     def test_other_ways_of_cancelling_abort(self):
-        self.start_slow()
+        goal = self.start_slow()
         self.succeed("cancel_training")
-        state, result = self.outcome()
+        state, result, _ = self.outcome(goal)
         self.assertEqual(state, GoalStatus.ABORTED)
         self.assertRegex(result.message, r"training was cancelled after \d+ of 1000")
         self.expect_old_codebook()
 
     def test_is_refused_while_another_goal_is_trained(self):
-        self.start_slow()
-        second = self.new_client()
-        self.start(second, dataset="synthetic.yaml")
-        state, result = self.outcome(second)
+        first = self.start_slow()
+        state, result, text = self.outcome(self.start(dataset="synthetic.yaml"))
         self.assertEqual(state, GoalStatus.REJECTED)
         self.assertFalse(result.success)
         self.assertIn("a training runs already", result.message)
-        self.assertEqual(second.get_goal_status_text(), result.message)
+        self.assertEqual(text, result.message)
         self.refuse("train", "a training runs already", dataset="synthetic.yaml")
         self.refuse("load_codebook", "a training runs", path="synthetic.sks")
-        self.assertEqual(self.client.get_state(), GoalStatus.ACTIVE, "the first goes on")
-        self.client.cancel_goal()
-        self.assertEqual(self.outcome()[0], GoalStatus.PREEMPTED)
+        self.assertEqual(first.handle.get_goal_status(), GoalStatus.ACTIVE, "the first goes on")
+        first.handle.cancel()
+        self.assertEqual(self.outcome(first)[0], GoalStatus.PREEMPTED)
 
     def test_is_refused_while_the_service_trains(self):
         self.write_slow_dataset()
@@ -122,8 +127,7 @@ class TrainActionTest(services_support.ServicesTest):
             self.node.call("train", dataset="slow.yaml", settings=["threads=1"])))
         call.start()
         self.wait_for_status(lambda s: s.state == Status.TRAINING and s.progress_fraction > 0, "a training's progress")
-        self.start(dataset="synthetic.yaml")
-        state, result = self.outcome()
+        state, result, _ = self.outcome(self.start(dataset="synthetic.yaml"))
         self.assertEqual(state, GoalStatus.REJECTED)
         self.assertIn("a training runs already", result.message)
         self.assertEqual(self.feedback, [])
@@ -136,13 +140,12 @@ class TrainActionTest(services_support.ServicesTest):
         for name, reasons in (("broken.yaml", ["missing.pcd"]), ("none.yaml", ["none.yaml"]),
                               ("../secret.yaml", ["outside", self.node.datasets])):
             with self.subTest(name):
-                self.start(dataset=name)
-                state, result = self.outcome()
+                state, result, text = self.outcome(self.start(dataset=name))
                 self.assertEqual(state, GoalStatus.ABORTED)
                 self.assertFalse(result.success)
                 for reason in reasons:
                     self.assertIn(reason, result.message)
-                self.assertEqual(self.client.get_goal_status_text(), result.message)
+                self.assertEqual(text, result.message)
                 self.status.wait_for(lambda s: result.message in s.last_error, "the error in the status")
         self.expect_old_codebook()
 
