@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/surface/even_directions.hpp"
+#include "core/verification/farthest_point.hpp"
 
 namespace sks {
 namespace {
@@ -39,30 +40,22 @@ const Eigen::VectorXf& heightsOf(const Rows& points, const Eigen::Vector3f& dire
   return heights;
 }
 
-/// The first of the farthest. To look for it apart from its height takes less time: only then it is done in SIMD lanes.
-Eigen::Vector3f farthest(const Rows& points, const Eigen::Vector3f& direction) {
-  const Eigen::VectorXf& heights = heightsOf(points, direction);
-  const float* begin = heights.data();
-  return points.row(std::find(begin, begin + heights.size() - 1, heights.maxCoeff()) - begin);
-}
-
 /// The points that can touch a plane, or nearly all of them.
-Rows outermost(const Rows& points) {
+std::vector<Eigen::Vector3f> outermost(const FarthestPoint& points) {
   std::vector<Eigen::Vector3f> all;
   for (const Eigen::Vector3d& spread : evenDirections(2 * falls)) {
-    const Eigen::Vector3f direction = spread.cast<float>();
-    const Eigen::Vector3f p = farthest(points, direction);
+    const Eigen::Vector3f p = points.along(spread.cast<float>());
     if (std::find(all.begin(), all.end(), p) == all.end()) all.push_back(p);
   }
-  return rowsOf(all);
+  return all;
 }
 
 /// Tips over the point that touches the plane, towards the centre, in ever smaller steps.
-Eigen::Vector3f fallen(Eigen::Vector3f down, const Rows& outer, const Eigen::Vector3f& center) {
+Eigen::Vector3f fallen(Eigen::Vector3f down, const FarthestPoint& outer, const Eigen::Vector3f& center) {
   const float shrink = std::pow(last_step / first_step, 1.0f / float(steps_of_fall));
   float step = first_step;
   for (int i = 0; i < steps_of_fall; ++i, step *= shrink) {
-    const Eigen::Vector3f lever = farthest(outer, down) - center, across = lever - lever.dot(down) * down;
+    const Eigen::Vector3f lever = outer.along(down) - center, across = lever - lever.dot(down) * down;
     if (across.norm() > 0) down = (down - step * across.normalized()).normalized();
   }
   return down;
@@ -162,7 +155,7 @@ std::vector<RestingPose> restingPoses(const ModelSurface& model) {
   if (model.points.empty()) return {};
   const Rows points = rowsOf(model.points), normals = rowsOf(model.normals);
   const Eigen::Vector3f center = points.colwise().mean();
-  const Rows outer = outermost(points);
+  const FarthestPoint all(model.points), outer(outermost(all));
   std::vector<std::pair<int, Eigen::Vector3f>> ends;  // how many falls end there, and the first of them
   for (const Eigen::Vector3d& spread : evenDirections(falls)) {
     const Eigen::Vector3f direction = spread.cast<float>();
@@ -180,7 +173,7 @@ std::vector<RestingPose> restingPoses(const ModelSurface& model) {
   for (const auto& [count, down] : ends) {
     if (poses.size() >= most_poses || count < fewest_falls) break;
     if (!isSupported(points, down, center)) continue;  // still on its way, along the edge of a box
-    const float floor = down.dot(farthest(points, down)), top = down.dot(farthest(points, -down));
+    const float floor = down.dot(all.along(down)), top = down.dot(all.along(-down));
     const float height = floor - top;
     const auto isAlike = [&](const RestingPose& pose) { return std::abs(pose.height - height) < alike * height; };
     if (std::count_if(poses.begin(), poses.end(), isAlike) >= most_alike) continue;
