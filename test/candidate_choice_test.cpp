@@ -37,7 +37,8 @@ protected:
   static Eigen::Isometry3d nearlyRight() { return moved(0.006, -0.005, 0.004, 0.1); }
 
   std::vector<PoseCandidate> chosen(std::vector<PoseCandidate> all, int threads) const {
-    return mostPromisingCandidates(std::move(all), examiner_, models_, view_, settings_, threads);
+    return mostPromisingCandidates(std::move(all), examiner_, models_, view_, settings_,
+                                   candidatesOfEach(no_votes_, settings_.verification), threads);
   }
 
   /// Without this no pose is so bad that it goes whatever its place among the others.

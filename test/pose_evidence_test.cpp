@@ -137,5 +137,23 @@ TEST(PoseEvidence, RoughSupportTellsAGoodPoseFromABadOne) {
   EXPECT_GT(bad.visible, 0);
 }
 
+TEST(PoseEvidence, AGlanceAtFewPointsSpeaksForAll) {
+  const Settings settings;
+  const Surface scene = sceneWith();
+  const SceneView scene_view(scene, settings);
+  const RoughSurface surface(trained());
+  RoughLimits glance;
+  glance.glance = true;
+  for (const double shift : {0.0, 0.02, 0.04}) {
+    const RoughSupport all = roughSupport(surface, scene_view, moved(shift, 0, 0)),
+                       few = roughSupport(surface, scene_view, moved(shift, 0, 0), glance);
+    EXPECT_NEAR(few.supported, all.supported, 0.2 * all.visible);
+    EXPECT_NEAR(few.visible, all.visible, 0.2 * all.visible);
+    EXPECT_NEAR(few.points, all.points, 0.2 * all.facing);
+    EXPECT_NEAR(few.facing, all.facing, 0.2 * all.facing);
+  }
+  EXPECT_EQ(roughSupport(surface, scene_view, moved(0, 0, -0.2), glance).supported, 0);
+}
+
 }  // namespace
 }  // namespace sks::test

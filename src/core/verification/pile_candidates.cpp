@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sks {
 namespace {
@@ -13,6 +14,7 @@ constexpr float most_joined = 2;          // times an object's extents: a part m
 constexpr float nearly_square = 0.8f;     // width over length: the axes of its extents may lie anyhow
 constexpr float same_end = 0.01f;         // [m] ends that near need not be tried, too
 constexpr std::size_t most_of_part = 24;  // poses
+constexpr std::size_t most_looked_at = 6; // poses of one object at a part with all points, after a glance at all
 
 bool mayBelong(const RestingModel& model, const PilePart& part) {
   const BaseExtent& base = model.rest.base;
@@ -33,20 +35,27 @@ Eigen::Isometry3d atPart(const RestingModel& model, const PilePart& part, float 
   return T;
 }
 
-/// Looks at one object at one part, and keeps its best pose.
-class Trial {
+/// Where an object may lie at a part, and from which view it is looked at there.
+class Places {
 public:
-  Trial(const VerifiedModels& models, const RestingModel& model, const PilePart& part, const SceneView& scene)
-      : models_(models), model_(model), part_(part), scene_(scene) {
-    best_.object = model.object;
-    best_.stands = true;
+  Places(const RestingModel& model, const PilePart& part, const Eigen::Vector3f& sensor)
+      : model_(model), part_(part), sensor_(sensor) {
+    rotate();
+    shift();
   }
 
+  struct Place {
+    Eigen::Isometry3d T_scene_model;
+    std::uint32_t view;
+  };
+  const std::vector<Place>& all() const { return all_; }
+
+private:
   /// In rotations about the middle.
-  void turn() {
+  void rotate() {
     for (int k = 0; k < upright_rotations; ++k) {
       const Eigen::Isometry3d T = atPart(model_, part_, float(2 * EIGEN_PI * k / upright_rotations));
-      look(T, viewOf(T));
+      all_.push_back({T, viewOf(T)});
     }
   }
 
@@ -63,48 +72,59 @@ public:
       for (const float a : stepsOf(by_length)) {
         for (const float b : stepsOf(by_width)) {
           const Eigen::Vector3f offset = a * along + b * across;
-          if (a != 0 || b != 0) look(Eigen::Translation3d(offset.cast<double>()) * T, view);
+          if (a != 0 || b != 0) all_.push_back({Eigen::Translation3d(offset.cast<double>()) * T, view});
         }
       }
     }
   }
 
-  const PoseCandidate& best() const { return best_; }
-
-private:
   static std::vector<float> stepsOf(float end) {
     if (std::abs(end) < same_end) return {0};
     return {0, end, -end};
   }
 
-  std::uint32_t viewOf(const Eigen::Isometry3d& T) const {
-    return nearestView(*model_.surface, scene_.surface.sensor_origin, T);
-  }
+  std::uint32_t viewOf(const Eigen::Isometry3d& T) const { return nearestView(*model_.surface, sensor_, T); }
 
-  void look(const Eigen::Isometry3d& T, std::uint32_t view) {
-    const double pre_score =
-        roughSupport(models_.rough[view], scene_, T, RoughLimits(), best_.pre_score).scoreWithoutVotes();
-    if (pre_score <= best_.pre_score) return;
-    best_.view = view;
-    best_.T_scene_model = T;
-    best_.pre_score = pre_score;
-  }
-
-  const VerifiedModels& models_;
   const RestingModel& model_;
   const PilePart& part_;
-  const SceneView& scene_;
-  PoseCandidate best_;
+  Eigen::Vector3f sensor_;
+  std::vector<Place> all_;
 };
+
+/// The best pose of an object at a part; its score is 0 if none is any good.
+PoseCandidate bestAt(const PilePart& part, const RestingModel& model, const VerifiedModels& models,
+                     const SceneView& scene) {
+  const Places places(model, part, scene.surface.sensor_origin);
+  RoughLimits glance;
+  glance.glance = true;
+  std::vector<std::pair<double, const Places::Place*>> glances;  // the best ones and their scores, best first
+  for (const Places::Place& place : places.all()) {
+    const double least = glances.size() < most_looked_at ? 0 : glances.back().first;
+    const RoughSupport support = roughSupport(models.rough[place.view], scene, place.T_scene_model, glance, least);
+    const double score = support.scoreWithoutVotes();
+    if (score <= least) continue;
+    const auto at = std::find_if(glances.begin(), glances.end(), [&](const auto& other) { return other.first < score; });
+    glances.insert(at, {score, &place});
+    if (glances.size() > most_looked_at) glances.pop_back();
+  }
+  PoseCandidate best;
+  best.object = model.object;
+  best.stands = true;
+  for (const auto& [score, place] : glances) {
+    const RoughSupport support =
+        roughSupport(models.rough[place->view], scene, place->T_scene_model, RoughLimits(), best.pre_score);
+    if (support.scoreWithoutVotes() <= best.pre_score) continue;
+    best.view = place->view, best.T_scene_model = place->T_scene_model, best.pre_score = support.scoreWithoutVotes();
+  }
+  return best;
+}
 
 std::vector<PoseCandidate> candidatesAt(const PilePart& part, const VerifiedModels& models, const SceneView& scene) {
   std::vector<PoseCandidate> candidates;
   for (const RestingModel& model : models.resting) {
     if (!mayBelong(model, part)) continue;
-    Trial trial(models, model, part, scene);
-    trial.turn();
-    trial.shift();
-    if (trial.best().pre_score > 0) candidates.push_back(trial.best());
+    const PoseCandidate best = bestAt(part, model, models, scene);
+    if (best.pre_score > 0) candidates.push_back(best);
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const PoseCandidate& a, const PoseCandidate& b) { return a.pre_score > b.pre_score; });

@@ -105,14 +105,40 @@ struct Stick {
   Eigen::Vector3f axis = Eigen::Vector3f::UnitX();
 };
 
+struct Line {
+  Eigen::Vector3f origin, axis;
+};
+
+/// Where points lie beside a line.
+struct AlongLine {
+  std::vector<float> position;  ///< along it [m]
+  std::vector<float> squared;   ///< distances from it [m^2]
+};
+
+/// Without branches, so that the compiler takes several at once.
+void placeAlong(const OrientedPoints& points, const Line& line, AlongLine& along) {
+  const float *x = points.x.data(), *y = points.y.data(), *z = points.z.data();
+  const Eigen::Vector3f o = line.origin, n = line.axis;
+  const std::size_t size = points.size();
+  along.position.resize(size), along.squared.resize(size);
+  float *position = along.position.data(), *squared = along.squared.data();
+  for (std::size_t i = 0; i < size; ++i) {
+    const float dx = x[i] - o.x(), dy = y[i] - o.y(), dz = z[i] - o.z();
+    const float t = dx * n.x() + dy * n.y() + dz * n.z();
+    position[i] = t;
+    squared[i] = dx * dx + dy * dy + dz * dz - t * t;
+  }
+}
+
 /// The longest run of points along a line, if there is little beside it.
-Stick stickAlong(const Positions& points, const Eigen::Vector3f& up, const Eigen::Vector3f& origin,
-                 const Eigen::Vector3f& axis, float radius, float spacing) {
+Stick stickAlong(const OrientedPoints& points, const Eigen::Vector3f& up, const Line& line, float radius, float spacing,
+                 AlongLine& buffer) {
+  placeAlong(points, line, buffer);
+  const std::vector<float>&position = buffer.position, &squared = buffer.squared;
+  const float limit = radius * radius;
   std::vector<std::pair<float, std::uint32_t>> along;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3f offset = points[i] - origin;
-    const float t = offset.dot(axis);
-    if ((offset - t * axis).squaredNorm() < radius * radius) along.push_back({t, i});
+    if (squared[i] < limit) along.push_back({position[i], i});
   }
   std::sort(along.begin(), along.end());
   std::size_t longest = 0, size = 0, first = 0;
@@ -124,22 +150,18 @@ Stick stickAlong(const Positions& points, const Eigen::Vector3f& up, const Eigen
   const float begin = along[longest].first, end = along[longest + size - 1].first;
   if (end - begin < 2 * radius * shortest_stick || float(size) * spacing < least_filled * (end - begin)) return {};
   std::size_t beside = 0;
-  for (const Eigen::Vector3f& p : points) {
-    const Eigen::Vector3f offset = p - origin;
-    const float t = offset.dot(axis), squared = (offset - t * axis).squaredNorm();
-    const bool below = offset.dot(up) < -0.5f * radius;  // it lies on that
-    if (!below && t > begin && t < end && squared >= radius * radius && squared < 4 * radius * radius) ++beside;
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const bool near = position[i] > begin && position[i] < end && squared[i] >= limit && squared[i] < 4 * limit;
+    if (!near) continue;
+    const bool below = (points.point(i) - line.origin).dot(up) < -0.5f * radius;  // it lies on that
+    if (!below) ++beside;
   }
   if (float(beside) > most_beside * float(size)) return {};
   Stick stick;
-  stick.axis = axis;
+  stick.axis = line.axis;
   for (std::size_t i = longest; i < longest + size; ++i) stick.members.push_back(along[i].second);
   return stick;
 }
-
-struct Line {
-  Eigen::Vector3f origin, axis;
-};
 
 /// Lines through two random points, at least the shortest stick's length apart but no more than twice that.
 std::vector<Line> randomLines(const Positions& points, float apart, std::mt19937& random) {
@@ -179,10 +201,11 @@ Stick mostSupportedStick(const OrientedPoints& points, const Positions& position
     lines.emplace_back(countAlong(points, line, radius), line);
   }
   std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  AlongLine buffer;
   Stick best;
   for (const auto& [count, line] : lines) {
     if (count < fewest_of_part || count <= best.members.size()) break;
-    Stick stick = stickAlong(positions, up, line.origin, line.axis, radius, spacing);
+    Stick stick = stickAlong(points, up, line, radius, spacing, buffer);
     if (stick.members.size() > best.members.size()) best = std::move(stick);
   }
   return best;

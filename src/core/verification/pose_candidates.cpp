@@ -23,7 +23,7 @@ Eigen::Isometry3d poseOf(const Vote& vote, const Codeword& word) {
 
 /// The best ones, spread over the positions that votes point to: a strong instance leaves room for others of its
 /// object.
-std::vector<PoseCandidate> mostPromising(std::vector<PoseCandidate> candidates, const Codebook& codebook,
+std::vector<PoseCandidate> mostPromising(std::vector<PoseCandidate> candidates, int most, const Codebook& codebook,
                                          const Settings& settings) {
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const PoseCandidate& a, const PoseCandidate& b) { return a.pre_score > b.pre_score; });
@@ -31,7 +31,7 @@ std::vector<PoseCandidate> mostPromising(std::vector<PoseCandidate> candidates, 
   std::vector<PoseCandidate> kept;
   std::vector<std::pair<Eigen::Vector3d, std::uint32_t>> positions;  // and views
   for (const PoseCandidate& candidate : candidates) {
-    if (candidate.pre_score <= 0 || int(kept.size()) >= settings.verification.candidates) break;
+    if (candidate.pre_score <= 0 || int(kept.size()) >= most) break;
     const Eigen::Vector3d position = candidate.T_scene_model * codebook.views[candidate.view].center().cast<double>();
     int near = 0, of_view = 0;
     for (const auto& [other, view] : positions) {
@@ -48,9 +48,15 @@ std::vector<PoseCandidate> mostPromising(std::vector<PoseCandidate> candidates, 
 
 }  // namespace
 
+int candidatesOfEach(const std::vector<std::vector<Vote>>& spaces, const VerificationSettings& settings) {
+  const auto voted = std::count_if(spaces.begin(), spaces.end(), [](const auto& votes) { return !votes.empty(); });
+  const int share = settings.total_candidates / std::max(1, int(voted));
+  return std::min(settings.candidates, std::max({1, settings.candidates / least_share, share}));
+}
+
 std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<RoughSurface>& surfaces,
                                           const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
-                                          const Settings& settings, int threads) {
+                                          const Settings& settings, int of_each, int threads) {
   std::vector<PoseCandidate> all;
   for (std::uint32_t object = 0; object < spaces.size(); ++object) {
     const std::vector<Vote>& votes = spaces[object];
@@ -67,7 +73,7 @@ std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::v
       const double fraction = support.supported / (support.visible + prior_weight);
       candidate.pre_score = fraction * std::sqrt(support.supported * density.at(votes[i].position));
     }
-    const std::vector<PoseCandidate> best = mostPromising(std::move(candidates), codebook, settings);
+    const std::vector<PoseCandidate> best = mostPromising(std::move(candidates), of_each, codebook, settings);
     all.insert(all.end(), best.begin(), best.end());
   }
   return all;

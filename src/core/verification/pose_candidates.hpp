@@ -24,10 +24,16 @@ struct PoseCandidate {
   bool stands = false;   ///< not from a vote, but from what stands alone on a plane
 };
 
-/// The most promising poses of each object, at most `verification.candidates`, best first within each object.
-/// @param surface_weights of each view
+/// One in so many of `verification.candidates` is looked at in any case, at least one.
+constexpr int least_share = 6;
+
+/// How many poses of each object are looked at: `verification.candidates`, or fewer where they would be more than
+/// `verification.total_candidates` of all objects that have votes.
+int candidatesOfEach(const std::vector<std::vector<Vote>>& spaces, const VerificationSettings& settings);
+
+/// The most promising poses of each object, at most `of_each`, best first within each object.
 std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<RoughSurface>& surfaces,
                                           const std::vector<std::vector<Vote>>& spaces, const SceneView& scene,
-                                          const Settings& settings, int threads);
+                                          const Settings& settings, int of_each, int threads);
 
 }  // namespace sks

@@ -76,7 +76,10 @@ std::uint32_t nearestView(const ModelSurface& surface, const Eigen::Vector3f& se
   std::size_t nearest = 0;
   float highest = -std::numeric_limits<float>::infinity();
   for (std::size_t i = 0; i < surface.views.size(); ++i) {
-    const float cosine = surface.directions[i].dot((sensor - surface.centers[i]).stableNormalized());
+    const Eigen::Vector3f ray = sensor - surface.centers[i];
+    const float along = surface.directions[i].dot(ray), squared = ray.squaredNorm();
+    if (!(squared > 0)) continue;
+    const float cosine = along * std::abs(along) / squared;  // its square, with its sign: without a root
     if (cosine <= highest) continue;
     highest = cosine;
     nearest = i;

@@ -35,16 +35,17 @@ namespace sks {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// @param size of the points, from the first on, whole SIMD vectors are looked at until that many are
 /// @param weights of the points, zeros for the padding
 /// @param cells of the confirmed points, -1 of others; padded as the sample is
-RoughLooks lookRoughlyImpl(const SurfaceSample& sample, const float* weights, const RangeImage& image,
+RoughLooks lookRoughlyImpl(const SurfaceSample& sample, std::size_t size, const float* weights, const RangeImage& image,
                            const RoughLimits& limits, const RigidRows& T, std::int32_t* cells) {
   const Lanes d;
   const hn::RebindToSigned<Lanes> di;
   const auto set = [&](float value) { return hn::Set(d, value); };
   const float* values = &image.cells().data()->x;
   auto facing_points = hn::Zero(d), confirmed_points = hn::Zero(d), visible = hn::Zero(d), confirmed_sum = hn::Zero(d);
-  for (std::size_t i = 0; i < sample.size; i += hn::Lanes(d)) {
+  for (std::size_t i = 0; i < size; i += hn::Lanes(d)) {
     const auto load = [&](const std::vector<float>& v) { return hn::LoadU(d, v.data() + i); };
     const Vector3 place = mapped(T, {load(sample.x), load(sample.y), load(sample.z)}, 1);
     const Vector3 normal = mapped(T, {load(sample.nx), load(sample.ny), load(sample.nz)}, 0);
@@ -93,10 +94,26 @@ HWY_EXPORT(lookRoughlyImpl);
 namespace {
 
 constexpr std::size_t rough_points = 80, most_points = 2 * rough_points;
+constexpr std::size_t glance_share = 4;  // one of so many points
 
 /// Between `rough_points` and `most_points` are taken.
 std::size_t roughStride(const TrainingView& view) {
   return std::max<std::size_t>(1, view.surface_points.size() / rough_points);
+}
+
+/// Numbers of the points: one of `glance_share`, then those between.
+std::vector<std::size_t> roughOrder(std::size_t points, std::size_t stride) {
+  std::vector<std::size_t> order;
+  for (std::size_t first = 0; first < glance_share; ++first) {
+    for (std::size_t i = first * stride; i < points; i += glance_share * stride) order.push_back(i);
+  }
+  return order;
+}
+
+/// How many of the first points a glance looks at: whole SIMD vectors on any computer, so that it sees the same on all.
+std::size_t glanceSize(std::size_t points) {
+  constexpr std::size_t vector = PointGrid::simd_padding;
+  return std::min(points, (points / glance_share + vector - 1) / vector * vector);
 }
 
 }  // namespace
@@ -104,8 +121,9 @@ std::size_t roughStride(const TrainingView& view) {
 RoughSurface::RoughSurface(const TrainingView& view) {
   SurfaceWeigher weigher(view);
   stride = roughStride(view);
-  sample.take(view, stride);
-  for (std::size_t i = 0; i < view.surface_points.size(); i += stride) {
+  const std::vector<std::size_t> order = roughOrder(view.surface_points.size(), stride);
+  sample.take(view.surface_points, view.surface_normals, order);
+  for (const std::size_t i : order) {
     const SurfaceWeight weight = weigher.at(i);
     shape.push_back(weight.shape);
     shape_and_color.push_back(weight.shape_and_color);
@@ -129,29 +147,32 @@ RoughSupport roughSupport(const RoughSurface& surface, const SceneView& scene, c
   if (scene.range_image.cells().empty()) return support;
   std::array<std::int32_t, most_points + PointGrid::simd_padding> cells;
   const RigidRows T = T_scene_model.matrix().topRows<3>().cast<float>();
-  const RoughLooks looks =
-      HWY_DYNAMIC_DISPATCH(lookRoughlyImpl)(surface.sample, weights.data(), scene.range_image, limits, T, cells.data());
-  support.points = int(looks.points), support.facing = int(looks.facing);
-  support.visible = double(looks.visible), support.supported = double(looks.confirmed);
-  support.agreement = double(looks.points);
+  const std::size_t size = limits.glance ? glanceSize(surface.sample.size) : surface.sample.size;
+  const RoughLooks looks = HWY_DYNAMIC_DISPATCH(lookRoughlyImpl)(surface.sample, size, weights.data(),
+                                                                 scene.range_image, limits, T, cells.data());
+  const double share = double(surface.sample.size) / double(std::max<std::size_t>(1, size));
+  support.points = int(share * double(looks.points)), support.facing = int(share * double(looks.facing));
+  support.visible = share * double(looks.visible), support.supported = share * double(looks.confirmed);
+  support.agreement = share * double(looks.points);
   if (!(compares_color || limits.passes_planes) || support.scoreWithoutVotes() <= least_score) return support;
-  support.supported = support.agreement = 0;
+  double agreements = 0, supported = 0, on_planes = 0;
   const float color_tolerance = limits.color_slack * scene.color_tolerance;
-  for (std::size_t i = 0; i < surface.sample.size; ++i) {
+  for (std::size_t i = 0; i < size; ++i) {
     if (cells[i] < 0) continue;
     const std::uint32_t point = scene.range_image.pointAt(std::size_t(cells[i]));
     if (limits.passes_planes && scene.onLargerPlane(point, surface.object_size)) {
-      support.visible -= double(weights[i]);
+      on_planes += double(weights[i]);
       continue;
     }
     double agreement = 1;
     if (compares_color) {
       agreement = colorAgreement(squaredColorDifference(surface.colors[i], scene.colorAt(point)), color_tolerance);
     }
-    support.agreement += agreement;
-    support.supported += agreement * double(weights[i]);
+    agreements += agreement;
+    supported += agreement * double(weights[i]);
   }
-  support.visible = std::max(support.visible, support.supported);  // whatever rounding does
+  support.agreement = share * agreements, support.supported = share * supported;
+  support.visible = std::max(support.visible - share * on_planes, support.supported);  // whatever rounding does
   return support;
 }
 

@@ -13,7 +13,7 @@
 namespace sks {
 
 /// About 80 points of a view's stored surface, spread evenly, with their weights and colours: what a quick look at a
-/// pose reads, side by side.
+/// pose reads, side by side. The first ones are spread evenly too.
 struct RoughSurface {
   RoughSurface() = default;
   explicit RoughSurface(const TrainingView& view);
@@ -45,6 +45,7 @@ struct RoughLimits {
   float occlusion = 0.02f;     ///< [m]
   float color_slack = 1.5f;    ///< of the tolerance: prints are off by as much as the pose
   bool passes_planes = false;  ///< points of the scene on planes larger than the object speak neither way
+  bool glance = false;         ///< looks at about a quarter of the points, which speak for all
 };
 
 /// @param least_score of scoreWithoutVotes(): colours are not compared where it cannot be reached

@@ -22,15 +22,17 @@ struct SurfaceSample {
 
   void take(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
             std::size_t stride) {
-    for (auto* axis : {&x, &y, &z, &nx, &ny, &nz}) axis->clear();
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    for (std::size_t i = 0; i < points.size(); i += stride) {
-      add(points[i], normals[i]);
-      sum += points[i];
-    }
-    size = x.size();
-    centroid = sum / float(std::max<std::size_t>(1, size));
-    for (std::size_t i = 0; i < PointGrid::simd_padding; ++i) add(centroid, Eigen::Vector3f::Zero());
+    clear();
+    for (std::size_t i = 0; i < points.size(); i += stride) add(points[i], normals[i]);
+    finish();
+  }
+
+  /// Takes the points of these numbers.
+  void take(const std::vector<Eigen::Vector3f>& points, const std::vector<Eigen::Vector3f>& normals,
+            const std::vector<std::size_t>& numbers) {
+    clear();
+    for (const std::size_t i : numbers) add(points[i], normals[i]);
+    finish();
   }
 
   Eigen::Vector3f point(std::size_t i) const { return {x[i], y[i], z[i]}; }
@@ -41,6 +43,18 @@ struct SurfaceSample {
   Eigen::Vector3f centroid = Eigen::Vector3f::Zero();  ///< [m]
 
 private:
+  void clear() {
+    for (auto* axis : {&x, &y, &z, &nx, &ny, &nz}) axis->clear();
+  }
+
+  void finish() {
+    size = x.size();
+    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+    for (std::size_t i = 0; i < size; ++i) sum += point(i);
+    centroid = sum / float(std::max<std::size_t>(1, size));
+    for (std::size_t i = 0; i < PointGrid::simd_padding; ++i) add(centroid, Eigen::Vector3f::Zero());
+  }
+
   void add(const Eigen::Vector3f& p, const Eigen::Vector3f& n) {
     x.push_back(p.x());
     y.push_back(p.y());

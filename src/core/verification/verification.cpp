@@ -130,7 +130,9 @@ std::vector<Hypothesis> SurfaceVerifier::findPoses(const SceneDescription& descr
   const VerifiedModels& models = *models_;
   const Codebook& codebook = *models.codebook;
   const std::vector<std::vector<Vote>>& spaces = description.votes;
-  std::vector<PoseCandidate> candidates = poseCandidates(codebook, models.rough, spaces, scene, settings, threads);
+  const int of_each = candidatesOfEach(spaces, settings.verification);
+  std::vector<PoseCandidate> candidates =
+      poseCandidates(codebook, models.rough, spaces, scene, settings, of_each, threads);
   if (!models.resting.empty()) {
     StandingThings standing =
         findStandingThings(scene.surface, scene.planes, largestDiagonal(codebook), models.stickWidth(), threads);
@@ -142,7 +144,7 @@ std::vector<Hypothesis> SurfaceVerifier::findPoses(const SceneDescription& descr
   }
   candidates = candidatesOutside(description.occupied, std::move(candidates), codebook);
   const PoseExaminer examiner(models, scene, spaces, settings);
-  candidates = mostPromisingCandidates(std::move(candidates), examiner, models, scene, settings, threads);
+  candidates = mostPromisingCandidates(std::move(candidates), examiner, models, scene, settings, of_each, threads);
   const double half = settings.verification.half_evidence;
 
   std::vector<Examined> examined(candidates.size());
