@@ -99,8 +99,12 @@ TEST(PoseEvidence, APointWeighsTheSameAloneAndAmongAll) {
   ASSERT_GT(some.stride, 1u);
   ASSERT_EQ(some.sample.size, (view.surface_points.size() + some.stride - 1) / some.stride);
   for (std::size_t i = 0; i < some.sample.size; ++i) {
-    EXPECT_EQ(some.shape[i], all.shape[i * some.stride]);
-    EXPECT_EQ(some.shape_and_color[i], all.shape_and_color[i * some.stride]);
+    const auto point = std::find(view.surface_points.begin(), view.surface_points.end(), some.sample.point(i));
+    ASSERT_NE(point, view.surface_points.end());
+    const auto number = std::size_t(point - view.surface_points.begin());
+    EXPECT_EQ(number % some.stride, 0u);
+    EXPECT_EQ(some.shape[i], all.shape[number]);
+    EXPECT_EQ(some.shape_and_color[i], all.shape_and_color[number]);
   }
 }
 
