@@ -148,6 +148,21 @@ TEST(Crc32c, KnownValues) {
   EXPECT_EQ(sks::crc32c("6789", 4, sks::crc32c("12345", 5)), 0xe3069283u);
 }
 
+TEST_F(CodebookFile, ReleasedIsTheSameFileWithoutTheSurfacesInMemory) {
+  sks::Codebook codebook = makeCodebook();
+  const std::uint32_t checksum = sks::writeCodebook(path_, codebook);
+  const std::string whole = sks::readTextFile(path_);
+  codebook = makeCodebook();
+  EXPECT_EQ(sks::writeAndRelease(path_, codebook), checksum);
+  EXPECT_EQ(sks::readTextFile(path_), whole);
+  EXPECT_EQ(codebook.checksum.get(), checksum);
+  EXPECT_EQ(codebook.words.size(), makeCodebook().words.size());
+  for (const sks::TrainingView& view : codebook.views) {
+    EXPECT_EQ(view.surface_points.capacity() + view.surface_normals.capacity() + view.surface_colors.capacity(), 0u);
+    EXPECT_FALSE(view.source.empty());
+  }
+}
+
 TEST_F(CodebookFile, RoundTripKeepsEverything) {
   for (const auto type : {sks::DescriptorType::shot, sks::DescriptorType::cshot}) {
     const sks::Codebook codebook = makeCodebook(type);

@@ -13,6 +13,7 @@
 #include "io/codebook_bytes.hpp"
 #include "io/codebook_layout.hpp"
 #include "io/crc32c.hpp"
+#include "io/freed_memory.hpp"
 
 namespace sks {
 namespace {
@@ -105,13 +106,33 @@ Settings portable(Settings settings) {
   return settings;
 }
 
-void build(flatbuffers::FlatBufferBuilder& builder, const Codebook& codebook) {
+/// Surfaces of views that were written. Memory of small pieces comes back only if it is asked for, now and then.
+class ReleasedSurfaces {
+public:
+  void add(TrainingView& view) {
+    for (auto* surface : {&view.surface_points, &view.surface_normals, &view.surface_colors}) {
+      std::vector<Eigen::Vector3f>().swap(*surface);
+    }
+    if (++released_ % views_at_once == 0) returnFreedMemory();
+  }
+
+private:
+  static constexpr int views_at_once = 32;
+  int released_ = 0;
+};
+
+/// @param released where given, the same codebook: its surfaces are let go
+void build(flatbuffers::FlatBufferBuilder& builder, const Codebook& codebook, Codebook* released) {
   const auto name = builder.CreateString(codebook.name);
   const auto type = builder.CreateString(descriptorText(codebook));
   const auto settings = builder.CreateString(settingsToYaml(portable(codebook.settings)));
   const auto objects = builder.CreateVectorOfStrings(codebook.objects);
   std::vector<Offset<format::View>> views;
-  for (const TrainingView& view : codebook.views) views.push_back(toFormat(builder, view));
+  ReleasedSurfaces surfaces;
+  for (std::size_t i = 0; i < codebook.views.size(); ++i) {
+    views.push_back(toFormat(builder, codebook.views[i]));
+    if (released != nullptr) surfaces.add(released->views[i]);
+  }
   std::vector<format::Word> words;
   words.reserve(codebook.words.size());
   for (const Codeword& word : codebook.words) {
@@ -162,7 +183,7 @@ void forEachPiece(const FileParts& parts, const Codebook& codebook, Function&& t
   take(background.levels(0), levelsSize(background));
 }
 
-FileParts makeParts(const Codebook& codebook, const std::string& path) {
+FileParts makeParts(const Codebook& codebook, const std::string& path, Codebook* released = nullptr) {
   const auto fail = [&](const std::string& reason) {
     throw Error(ErrorCode::bad_file, "cannot write codebook '" + path + "': " + reason);
   };
@@ -175,7 +196,7 @@ FileParts makeParts(const Codebook& codebook, const std::string& path) {
         "keypoints.grid_size");
   }
   FileParts parts(metadata_bound);
-  build(parts.metadata, codebook);
+  build(parts.metadata, codebook, released);
 
   CodebookHeader& header = parts.header;
   header.version = codebook_file_version;
@@ -210,6 +231,14 @@ void writeParts(const FileParts& parts, const Codebook& codebook, AtomicFile& fi
   forEachPiece(parts, codebook, [&](const void* data, std::size_t size) { file.write(data, size); });
 }
 
+std::uint32_t writeWhole(const FileParts& parts, const std::string& path, const Codebook& codebook) {
+  AtomicFile file(path);
+  writeParts(parts, codebook, file);
+  file.commit();
+  codebook.checksum.set(parts.header.payload_checksum);
+  return parts.header.payload_checksum;
+}
+
 }  // namespace
 
 std::uint32_t codebookChecksum(const Codebook& codebook) {
@@ -218,12 +247,11 @@ std::uint32_t codebookChecksum(const Codebook& codebook) {
 }
 
 std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook) {
-  const FileParts parts = makeParts(codebook, path);
-  AtomicFile file(path);
-  writeParts(parts, codebook, file);
-  file.commit();
-  codebook.checksum.set(parts.header.payload_checksum);
-  return parts.header.payload_checksum;
+  return writeWhole(makeParts(codebook, path), path, codebook);
+}
+
+std::uint32_t writeAndRelease(const std::string& path, Codebook& codebook) {
+  return writeWhole(makeParts(codebook, path, &codebook), path, codebook);
 }
 
 std::string codebookBytes(const Codebook& codebook) {

@@ -11,12 +11,15 @@ namespace sks {
 MeshSampler meshSampler(const MeshTraining& training, std::function<void(const std::string&)> warn,
                         const std::string& folder) {
   return [training, warn = std::move(warn), folder](const TrainingEntry& entry, double scale) {
-    LoadedMesh loaded = entryMesh(entry, scale, folder);
+    const LoadedMesh loaded = entryMesh(entry, scale, folder);
     for (const std::string& warning : loaded.warnings) warn(warning);
     if (loaded.states_unit && entry.scale.value_or(0) > 0) {
       warn(entry.path + ": it states its unit itself, which is used instead of the one that is given for it");
     }
-    return meshSamples(entry.object, entry.source, std::make_shared<const Mesh>(std::move(loaded.mesh)), training);
+    const auto load = [entry, scale, folder] {
+      return std::make_shared<const Mesh>(entryMesh(entry, scale, folder).mesh);
+    };
+    return meshSamples(entry.object, entry.source, loaded.mesh, load, training);
   };
 }
 

@@ -24,17 +24,33 @@ double fittingDistance(const CameraModel& camera, double radius) {
   return margin * radius / std::sin(std::atan(slope));
 }
 
-/// What renders the views of one mesh: made for the first of them and let go with the last, since of many meshes that
-/// are trained one after the other, each takes as much memory for it as for itself. Thread-safe.
+/// The camera with the part of its image alone in which a ball around the middle of its view is seen.
+CameraModel croppedToBall(CameraModel camera, double radius, double distance) {
+  constexpr double margin = 2;  // [px]
+  const double slope = radius / std::sqrt(distance * distance - radius * radius);
+  const auto crop = [slope](int& size, double& center, double focal_length) {
+    const double reach = slope * focal_length + margin;
+    const int first = std::max(0, int(std::floor(center - reach)));
+    size = std::min(size, int(std::ceil(center + reach)) + 1) - first;
+    center -= first;
+  };
+  crop(camera.width, camera.cx, camera.fx);
+  crop(camera.height, camera.cy, camera.fy);
+  return camera;
+}
+
+/// What renders the views of one mesh: loaded and made for the first of them and let go with the last, as of many meshes
+/// that are trained one after the other each takes memory. Thread-safe.
 class RendererOfViews {
 public:
-  RendererOfViews(std::shared_ptr<const Mesh> mesh, std::size_t views) : mesh_(std::move(mesh)), views_(views) {}
+  RendererOfViews(std::function<std::shared_ptr<const Mesh>()> load, std::size_t views)
+      : load_(std::move(load)), views_(views) {}
 
   std::shared_ptr<const Renderer> forView() {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!renderer_) {
       const auto made = std::make_shared<Renderer>();
-      made->addInstance(made->addMesh(mesh_), Eigen::Isometry3d::Identity());
+      made->addInstance(made->addMesh(load_()), Eigen::Isometry3d::Identity());
       renderer_ = made;
       rendered_ = 0;
     }
@@ -44,7 +60,7 @@ public:
   }
 
 private:
-  std::shared_ptr<const Mesh> mesh_;
+  std::function<std::shared_ptr<const Mesh>()> load_;
   std::size_t views_;
   std::mutex mutex_;
   std::shared_ptr<const Renderer> renderer_;
@@ -80,6 +96,13 @@ Eigen::Isometry3d lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& targ
 
 std::vector<TrainingSample> meshSamples(const std::string& object, const std::string& source,
                                         const std::shared_ptr<const Mesh>& mesh, const MeshTraining& training) {
+  return meshSamples(
+      object, source, *mesh, [mesh] { return mesh; }, training);
+}
+
+std::vector<TrainingSample> meshSamples(const std::string& object, const std::string& source, const Mesh& mesh,
+                                        const std::function<std::shared_ptr<const Mesh>()>& load,
+                                        const MeshTraining& training) {
   constexpr int most_views = 10000;
   if (training.views < 1 || training.views > most_views) {
     throw Error(ErrorCode::bad_usage, "views = " + std::to_string(training.views) + " must be in [1, 10000]");
@@ -91,15 +114,16 @@ std::vector<TrainingSample> meshSamples(const std::string& object, const std::st
   }
   CameraModel camera = training.camera;
   if (!training.noise) camera.noise = CameraNoise::none();
-  const Eigen::AlignedBox3f box = mesh->box();
+  const Eigen::AlignedBox3f box = mesh.box();
   const double radius = 0.5 * double(box.diagonal().norm());
   const double distance = std::max(training.distance, fittingDistance(camera, radius));
   camera.min_range = 0;  // an object larger than usual is seen from as far as it needs
   camera.max_range = distance + 2 * radius;
   validate(camera);
+  if (!training.noise) camera = croppedToBall(camera, radius, distance);  // errors are drawn pixel by pixel
 
   const std::vector<Eigen::Vector3d> directions = geodesicDirections(training.views);
-  const auto renderer = std::make_shared<RendererOfViews>(mesh, directions.size());
+  const auto renderer = std::make_shared<RendererOfViews>(load, directions.size());
   std::vector<TrainingSample> samples;
   for (const Eigen::Vector3d& direction : directions) {
     const std::size_t number = samples.size();
@@ -111,7 +135,7 @@ std::vector<TrainingSample> meshSamples(const std::string& object, const std::st
     sample.frame = source;
     sample.box = box;
     sample.rendered = true;
-    sample.load = [renderer, camera, T_model_camera, number, threads = training.threads, color = mesh->hasColor()] {
+    sample.load = [renderer, camera, T_model_camera, number, threads = training.threads, color = mesh.hasColor()] {
       const Rendering view = renderer->forView()->render(camera, T_model_camera, number, threads);
       return measuredPoints(view.cloud, color, T_model_camera);
     };

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <memory>
 
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include <sks_detector/codebook_file.hpp>
 #include <sks_detector/error.hpp>
 #include <sks_detector/registration.hpp>
@@ -16,6 +12,7 @@
 #include "io/codebook_layout.hpp"
 #include "io/dataset.hpp"
 #include "io/file.hpp"
+#include "io/freed_memory.hpp"
 #include "tools/cluster/cluster.hpp"
 #include "tools/codebook_summary.hpp"
 #include "tools/command.hpp"
@@ -72,18 +69,16 @@ void run(const TrainOptions& options) {
 
   Stopwatch stopwatch;
   ProgressBar bar;
-  const RegisteredTraining trained =
+  RegisteredTraining trained =
       trainRegistered(trainingSamples(data_set, options.mesh_views.sampler()), settings,
                       options.name.empty() ? data_set.name : options.name, bar.callback(), {}, workShare());
   if (!leads()) return;
-  const Codebook& codebook = trained.codebook;
+  Codebook& codebook = trained.codebook;
   bar.clear();
   for (const std::string& warning : registrationWarnings(trained.objects)) warn(warning);
   for (const std::string& warning : trainingWarnings(codebook)) warn(warning);
-#ifdef __GLIBC__
-  ::malloc_trim(0);  // meshes and clouds are gone: writing takes memory in their place, not beside them
-#endif
-  writeCodebook(options.output, codebook);
+  returnFreedMemory();  // of meshes and clouds: writing takes memory in its place, not beside it
+  writeAndRelease(options.output, codebook);
   std::vector<std::string> models;
   for (const RegisteredObject& object : trained.objects) {
     if (options.models.empty()) break;

@@ -7,8 +7,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <sks_detector/simulation/training_views.hpp>
-
 #include "error_of.hpp"
 #include "simulation/builtin_objects.hpp"
 #include "simulation/convex_parts.hpp"
@@ -149,44 +147,6 @@ TEST(Scene, RefusesImpossibleOptions) {
   EXPECT_THAT(refusal([](SceneOptions& o) { o.objects = -1; }), HasSubstr("scene: objects = -1"));
   EXPECT_THAT(refusal([](SceneOptions& o) { o.region = 1; }), HasSubstr("region"));
   EXPECT_THAT(refusal([](SceneOptions& o) { o.max_elevation = 100; }), HasSubstr("max_elevation"));
-}
-
-TEST(MeshSamples, AreRegisteredInTheFrameOfTheMesh) {
-  const auto mesh = std::make_shared<const Mesh>(transformed(makeBox({0.1f, 0.06f, 0.2f}, plain({9, 8, 7}), 0.05f),
-                                                             Eigen::Isometry3f(Eigen::Translation3f(1, 2, 3))));
-  MeshTraining training;
-  training.views = 12;
-  const auto samples = meshSamples("box", "box.obj", mesh, training);
-  ASSERT_EQ(samples.size(), 12u);
-  Eigen::AlignedBox3f seen;
-  for (const TrainingSample& sample : samples) {
-    EXPECT_EQ(sample.frame, "box.obj");
-    EXPECT_TRUE(sample.box->isApprox(mesh->box()));
-    const Cloud cloud = sample.load();
-    EXPECT_NEAR((cloud.sensor_origin - mesh->box().center()).norm(), 0.8f, 1e-4f);
-    EXPECT_EQ(cloud.colors.at(0).g, 8);
-    for (const Eigen::Vector3f& p : cloud.points) seen.extend(p);
-  }
-  EXPECT_EQ(samples[3].source, "box.obj#3");
-  EXPECT_LT((seen.min() - mesh->box().min()).norm(), 0.004f);
-  EXPECT_LT((seen.max() - mesh->box().max()).norm(), 0.004f);
-}
-
-// What renders them is let go when each has been loaded once.
-TEST(MeshSamples, MayBeLoadedAgainAndInAnyOrder) {
-  MeshTraining training;
-  training.views = 4;
-  const auto mesh = std::make_shared<const Mesh>(makeBox({0.1f, 0.06f, 0.2f}, plain({9, 8, 7}), 0.05f));
-  const auto samples = meshSamples("box", "box.obj", mesh, training);
-  std::vector<Cloud> first;
-  for (const TrainingSample& sample : samples) first.push_back(sample.load());
-  for (const std::size_t i : {3u, 3u, 0u, 1u, 2u, 0u}) EXPECT_EQ(samples[i].load().points, first[i].points) << i;
-}
-
-TEST(MeshSamples, MeshWithoutColourGivesViewsWithoutColour) {
-  Mesh mesh = makeSphere(0.05f, 3, plain({}));
-  mesh.colors.clear();
-  EXPECT_FALSE(meshSamples("ball", "ball.stl", std::make_shared<const Mesh>(mesh), {}).front().load().hasColor());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +27,12 @@ struct MeshTraining {
 /// @throws Error(bad_usage) for impossible settings; loading a sample Error(bad_data) if nothing can be seen
 std::vector<TrainingSample> meshSamples(const std::string& object, const std::string& source,
                                         const std::shared_ptr<const Mesh>& mesh, const MeshTraining& training);
+
+/// The same without keeping the mesh: it is loaded again for the first view that is rendered, and let go with the last.
+/// @param load gives the mesh; the samples may call it from any thread, one at a time, and pass on what it throws
+std::vector<TrainingSample> meshSamples(const std::string& object, const std::string& source, const Mesh& mesh,
+                                        const std::function<std::shared_ptr<const Mesh>()>& load,
+                                        const MeshTraining& training);
 
 /// A camera at `eye` that looks at `target`; the image's rows run across the direction of `up`.
 Eigen::Isometry3d lookAt(const Eigen::Vector3d& eye, const Eigen::Vector3d& target, const Eigen::Vector3d& up);

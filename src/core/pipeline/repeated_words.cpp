@@ -22,16 +22,20 @@ RepeatedWords::Cell RepeatedWords::cellOf(const Codeword& word) const {
   return {cell(word.position.x()), cell(word.position.y()), cell(word.position.z())};
 }
 
-bool RepeatedWords::repeats(const std::string& model, const Codeword& word, const float* bins, const Quantizer& rows) {
-  const auto known = models_.find(model);
-  if (known == models_.end()) return false;
+void RepeatedWords::beginView(const std::string& name) {
+  if (name == model_) return;
+  model_ = name;
+  cells_.clear();
+}
+
+bool RepeatedWords::repeats(const Codeword& word, const float* bins, const Quantizer& rows) {
   buffer_.resize(rows.cols());
   const auto [x, y, z] = cellOf(word);
   for (int dx = -1; dx <= 1; ++dx) {
     for (int dy = -1; dy <= 1; ++dy) {
       for (int dz = -1; dz <= 1; ++dz) {
-        const auto cell = known->second.find({x + dx, y + dy, z + dz});
-        if (cell == known->second.end()) continue;
+        const auto cell = cells_.find({x + dx, y + dy, z + dz});
+        if (cell == cells_.end()) continue;
         for (const Place& place : cell->second) {
           if ((place.word.position - word.position).squaredNorm() > same_place_ * same_place_) continue;
           if (cosineBetween(place.word.frame, word.frame) < same_rotation) continue;
@@ -44,8 +48,8 @@ bool RepeatedWords::repeats(const std::string& model, const Codeword& word, cons
   return false;
 }
 
-void RepeatedWords::add(const std::string& model, const Codeword& word, std::uint32_t index) {
-  models_[model][cellOf(word)].push_back({word, index});
+void RepeatedWords::add(const Codeword& word, std::uint32_t index) {
+  cells_[cellOf(word)].push_back({word, index});
 }
 
 }  // namespace sks

@@ -227,7 +227,7 @@ private:
     const Eigen::Isometry3f T = motionOf(prepared.view);
     const Descriptors& descriptors = prepared.descriptors;
     const bool may_repeat = prepared.rendered && verifiesPoses(codebook_.settings);
-    const std::string model = prepared.object + "\n" + prepared.view.frame;  // two objects may have one mesh
+    repeated_.beginView(prepared.object + "\n" + prepared.view.frame);  // two objects may have one mesh
     for (std::size_t row = 0; row < descriptors.keypoints.size(); ++row) {
       Codeword word;
       word.view = std::uint32_t(codebook_.views.size());
@@ -235,8 +235,8 @@ private:
       word.frame = descriptors.frames[row] * T.linear().transpose();
       const float* bins = descriptors.values.row(row);
       if (may_repeat) {
-        if (repeated_.repeats(model, word, bins, rows_)) continue;
-        repeated_.add(model, word, std::uint32_t(codebook_.words.size()));
+        if (repeated_.repeats(word, bins, rows_)) continue;
+        repeated_.add(word, std::uint32_t(codebook_.words.size()));
       }
       addDescriptor(bins);
       codebook_.words.push_back(word);
