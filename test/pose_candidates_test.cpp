@@ -22,8 +22,8 @@ TEST(PoseCandidates, ManyObjectsShareTheTotal) {
   EXPECT_EQ(candidatesOfEach(votesFor(0), settings), 120);
   EXPECT_EQ(candidatesOfEach(votesFor(8), settings), 120);
   EXPECT_EQ(candidatesOfEach(votesFor(21), settings), 45);
-  EXPECT_EQ(candidatesOfEach(votesFor(48), settings), 20);
-  EXPECT_EQ(candidatesOfEach(votesFor(1000), settings), 20) << "a sixth";
+  EXPECT_EQ(candidatesOfEach(votesFor(32), settings), 30);
+  EXPECT_EQ(candidatesOfEach(votesFor(1000), settings), 30) << "a quarter";
 }
 
 TEST(PoseCandidates, AtLeastOneOfEachIsLookedAt) {

@@ -17,12 +17,12 @@ constexpr std::uint32_t codebook_file_version = 3;
 /// @throws Error(bad_file) with the path and the system's reason
 std::uint32_t writeCodebook(const std::string& path, const Codebook& codebook);
 
-/// The same, letting go of the surfaces of its views as they are written: a program that needs the codebook no more takes
-/// less memory at most. All else of the codebook stays. If writing fails, some or all of them are gone.
+/// The same, letting go of the surfaces of its views as they are written: a program that needs the codebook no more
+/// takes less memory at most. All else of the codebook stays. If writing fails, some or all of them are gone.
 std::uint32_t writeAndRelease(const std::string& path, Codebook& codebook);
 
-/// As writeCodebook() where there is no such file yet; one that is there stays as it is, also if another thread or process wrote
-/// it at the same time: of several one alone writes.
+/// As writeCodebook() where there is no such file yet; one that is there stays as it is, also if another thread or
+/// process wrote it at the same time: of several one alone writes.
 /// @return whether it was written
 bool writeNewCodebook(const std::string& path, const Codebook& codebook);
 

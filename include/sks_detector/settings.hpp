@@ -295,7 +295,8 @@ struct VerificationSettings {
       "clutter, but slower. Only used where detection.hypotheses is verified");
     v(s.total_candidates, "total_candidates", Range{1, 1000000}, "",
       "most poses of all objects together that are refined and compared with the scene: with many objects each gets an "
-      "equal share, but at least a sixth of `candidates`; larger: more of many objects are found in clutter, but slower");
+      "equal share, but at least a quarter of `candidates`; larger: more of many objects are found in clutter, but "
+      "slower");
     v(s.support_distance, "support_distance", Range{0.0005, 0.1}, "m",
       "a point of the stored surface is confirmed by a scene point within this distance whose normal agrees, see "
       "support_angle; larger: noisy and inexact surfaces are confirmed, but so are more wrong poses");

@@ -39,8 +39,8 @@ CameraModel croppedToBall(CameraModel camera, double radius, double distance) {
   return camera;
 }
 
-/// What renders the views of one mesh: loaded and made for the first of them and let go with the last, as of many meshes
-/// that are trained one after the other each takes memory. Thread-safe.
+/// What renders the views of one mesh: loaded and made for the first of them and let go with the last, as of many
+/// meshes that are trained one after the other each takes memory. Thread-safe.
 class RendererOfViews {
 public:
   RendererOfViews(std::function<std::shared_ptr<const Mesh>()> load, std::size_t views)

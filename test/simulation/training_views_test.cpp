@@ -96,8 +96,8 @@ TEST(MeshSamples, ShowWhatTheWholeImageShows) {
     const Cloud cloud = sample.load();
     Renderer renderer;
     renderer.addInstance(renderer.addMesh(mesh), Eigen::Isometry3d::Identity());
-    const Eigen::Isometry3d T_model_camera = lookAt(cloud.sensor_origin.cast<double>(),
-                                                    mesh->box().center().cast<double>(), Eigen::Vector3d::UnitZ());
+    const Eigen::Isometry3d T_model_camera =
+        lookAt(cloud.sensor_origin.cast<double>(), mesh->box().center().cast<double>(), Eigen::Vector3d::UnitZ());
     std::size_t seen = 0;
     for (const Eigen::Vector3f& p : renderer.render(camera, T_model_camera, 0, 1).cloud.points) seen += p.allFinite();
     EXPECT_EQ(cloud.size(), seen);

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double first_rounds = 0.42;  // of all
 constexpr double kept_share = 0.8;     // on recorded scenes the first right one was among the 15 best of 120
+constexpr int kept_anyway = 6;         // one in so many, whatever its evidence
 // Of the evidence that scores 0.5. With the wide tolerances of a quick look right poses have several times as much, but
 // for objects of which next to nothing is in sight: these need the first ones of their object whatever their evidence.
 constexpr double least_evidence = 0.75;
@@ -20,8 +21,7 @@ constexpr double least_evidence = 0.75;
 
 std::vector<PoseCandidate> mostPromisingCandidates(std::vector<PoseCandidate> candidates, const PoseExaminer& examiner,
                                                    const VerifiedModels& models, const SceneView& scene,
-                                                   const Settings& settings, int of_each,
-                                                   int threads) {
+                                                   const Settings& settings, int of_each, int threads) {
   const int rounds = int(first_rounds * settings.refinement.iterations);
   const double least = least_evidence * settings.verification.half_evidence;
   std::vector<double> evidence(candidates.size());
@@ -39,7 +39,7 @@ std::vector<PoseCandidate> mostPromisingCandidates(std::vector<PoseCandidate> ca
   std::iota(order.begin(), order.end(), std::size_t(0));
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return candidates[a].pre_score > candidates[b].pre_score; });
-  const int fewest = std::max(1, of_each / least_share);
+  const int fewest = std::max(1, of_each / kept_anyway);
   const int most = std::max(fewest, int(kept_share * of_each));
   std::vector<int> count(models.codebook->objects.size(), 0);
   std::vector<PoseCandidate> kept;

@@ -8,13 +8,13 @@
 namespace sks {
 namespace {
 
-constexpr float part_tolerance = 0.01f;   // [m] of what is measured of a part
-constexpr float least_of_object = 0.6f;   // of its length
-constexpr float most_joined = 2;          // times an object's extents: a part may be of several that touch
-constexpr float nearly_square = 0.8f;     // width over length: the axes of its extents may lie anyhow
-constexpr float same_end = 0.01f;         // [m] ends that near need not be tried, too
-constexpr std::size_t most_of_part = 24;  // poses
-constexpr std::size_t most_looked_at = 6; // poses of one object at a part with all points, after a glance at all
+constexpr float part_tolerance = 0.01f;    // [m] of what is measured of a part
+constexpr float least_of_object = 0.6f;    // of its length
+constexpr float most_joined = 2;           // times an object's extents: a part may be of several that touch
+constexpr float nearly_square = 0.8f;      // width over length: the axes of its extents may lie anyhow
+constexpr float same_end = 0.01f;          // [m] ends that near need not be tried, too
+constexpr std::size_t most_of_part = 24;   // poses
+constexpr std::size_t most_looked_at = 6;  // poses of one object at a part with all points, after a glance at all
 
 bool mayBelong(const RestingModel& model, const PilePart& part) {
   const BaseExtent& base = model.rest.base;
@@ -103,7 +103,8 @@ PoseCandidate bestAt(const PilePart& part, const RestingModel& model, const Veri
     const RoughSupport support = roughSupport(models.rough[place.view], scene, place.T_scene_model, glance, least);
     const double score = support.scoreWithoutVotes();
     if (score <= least) continue;
-    const auto at = std::find_if(glances.begin(), glances.end(), [&](const auto& other) { return other.first < score; });
+    const auto at =
+        std::find_if(glances.begin(), glances.end(), [&](const auto& other) { return other.first < score; });
     glances.insert(at, {score, &place});
     if (glances.size() > most_looked_at) glances.pop_back();
   }

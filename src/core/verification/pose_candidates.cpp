@@ -9,6 +9,7 @@
 namespace sks {
 namespace {
 
+constexpr int fewest_share = 4;         // one in so many of `verification.candidates` is looked at in any case
 constexpr int most_at_a_position = 24;  // candidates of one object whose box centres are near each other
 constexpr int most_of_a_view = 3;       // of these
 constexpr int fewest_supported = 6;     // points, as many as a rigid motion has degrees of freedom
@@ -51,7 +52,7 @@ std::vector<PoseCandidate> mostPromising(std::vector<PoseCandidate> candidates, 
 int candidatesOfEach(const std::vector<std::vector<Vote>>& spaces, const VerificationSettings& settings) {
   const auto voted = std::count_if(spaces.begin(), spaces.end(), [](const auto& votes) { return !votes.empty(); });
   const int share = settings.total_candidates / std::max(1, int(voted));
-  return std::min(settings.candidates, std::max({1, settings.candidates / least_share, share}));
+  return std::min(settings.candidates, std::max({1, settings.candidates / fewest_share, share}));
 }
 
 std::vector<PoseCandidate> poseCandidates(const Codebook& codebook, const std::vector<RoughSurface>& surfaces,

@@ -24,11 +24,8 @@ struct PoseCandidate {
   bool stands = false;   ///< not from a vote, but from what stands alone on a plane
 };
 
-/// One in so many of `verification.candidates` is looked at in any case, at least one.
-constexpr int least_share = 6;
-
-/// How many poses of each object are looked at: `verification.candidates`, or fewer where they would be more than
-/// `verification.total_candidates` of all objects that have votes.
+/// How many poses of each object are looked at: `verification.candidates`, or fewer, but at least a quarter of these,
+/// where they would be more than `verification.total_candidates` of all objects that have votes.
 int candidatesOfEach(const std::vector<std::vector<Vote>>& spaces, const VerificationSettings& settings);
 
 /// The most promising poses of each object, at most `of_each`, best first within each object.
