@@ -58,7 +58,7 @@ def words(axes, benchmark):
     draw(axes[1], counts, {'search structure': [run['bytes_per_word'] if int(run['bytes_per_word']) > 300 else None for run in runs]},
          ylabel='bytes a codeword', ylim=(0, 500), title='memory')
     draw(axes[2], counts, {'nearest codewords found': [run['share_of_nearest'] for run in runs]}, ylabel='fraction',
-         ylim=(0.9, 1.002), title='recall')
+         ylim=(0.85, 1.005), title='recall')
     for panel in axes:
         panel.set_xlabel('codewords')
 
