@@ -29,6 +29,7 @@ CameraModel croppedToBall(CameraModel camera, double radius, double distance) {
   constexpr double margin = 2;  // [px]
   const double slope = radius / std::sqrt(distance * distance - radius * radius);
   const auto crop = [slope](int& size, double& center, double focal_length) {
+    if (!(center >= 0 && center < size)) return;  // it looks past its image, in which there is next to nothing
     const double reach = slope * focal_length + margin;
     const int first = std::max(0, int(std::floor(center - reach)));
     size = std::min(size, int(std::ceil(center + reach)) + 1) - first;

@@ -104,6 +104,15 @@ TEST(MeshSamples, ShowWhatTheWholeImageShows) {
   }
 }
 
+TEST(MeshSamples, CameraThatLooksPastItsImageSeesNothing) {
+  const auto mesh = std::make_shared<const Mesh>(makeBox({0.1f, 0.06f, 0.2f}, plain({9, 8, 7}), 0.05f));
+  for (const double center : {-5000.0, 5000.0}) {
+    MeshTraining training;
+    training.camera.cx = center;
+    EXPECT_EQ(meshSamples("box", "box.obj", mesh, training).front().load().size(), 0u);
+  }
+}
+
 TEST(MeshSamples, MeshWithoutColourGivesViewsWithoutColour) {
   Mesh mesh = makeSphere(0.05f, 3, plain({}));
   mesh.colors.clear();

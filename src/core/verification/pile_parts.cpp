@@ -178,30 +178,22 @@ std::vector<Line> randomLines(const Positions& points, float apart, std::mt19937
   return lines;
 }
 
-/// How many points are near to a line: without branches, so that the compiler takes several at once.
-std::size_t countAlong(const OrientedPoints& points, const Line& line, float radius) {
-  const float *x = points.x.data(), *y = points.y.data(), *z = points.z.data();
-  const Eigen::Vector3f o = line.origin, n = line.axis;
+/// How many points are near to a line.
+std::size_t countAlong(const OrientedPoints& points, const Line& line, float radius, AlongLine& buffer) {
+  placeAlong(points, line, buffer);
   const float limit = radius * radius;
-  const int size = int(points.size());
-  int count = 0;
-  for (int i = 0; i < size; ++i) {
-    const float dx = x[i] - o.x(), dy = y[i] - o.y(), dz = z[i] - o.z();
-    const float t = dx * n.x() + dy * n.y() + dz * n.z();
-    count += int(dx * dx + dy * dy + dz * dz - t * t < limit);
-  }
-  return std::size_t(count);
+  return std::size_t(std::count_if(buffer.squared.begin(), buffer.squared.end(), [&](float s) { return s < limit; }));
 }
 
 /// RANSAC: of random lines the one with the longest run of points.
 Stick mostSupportedStick(const OrientedPoints& points, const Positions& positions, const Eigen::Vector3f& up,
                          float radius, float spacing, std::mt19937& random) {
+  AlongLine buffer;
   std::vector<std::pair<std::size_t, Line>> lines;  // and the points along each
   for (const Line& line : randomLines(positions, radius * shortest_stick, random)) {
-    lines.emplace_back(countAlong(points, line, radius), line);
+    lines.emplace_back(countAlong(points, line, radius, buffer), line);
   }
   std::stable_sort(lines.begin(), lines.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  AlongLine buffer;
   Stick best;
   for (const auto& [count, line] : lines) {
     if (count < fewest_of_part || count <= best.members.size()) break;
